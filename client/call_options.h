@@ -18,12 +18,12 @@ namespace bccskel::client {
 // Whether the thinned volume is returned with the graph.
 enum class ThinVolume { kOmit, kReturn };
 
-// Where the time of a call went that is not in StageTimings.
+// Times of a call that StageTimings does not cover.
 struct CallTimes {
   std::chrono::nanoseconds upload{0};    // from the call's start until all of the volume is sent
   std::chrono::nanoseconds queue{0};     // on the server, before the first stage
   std::chrono::nanoseconds decode{0};    // on the server, mostly while the volume arrives
-  std::chrono::nanoseconds download{0};  // from the first of the skeleton to the last of the call
+  std::chrono::nanoseconds download{0};  // from the first chunk of the skeleton to the end
 };
 
 // Everything about one call but the volume. The defaults suit a program without a user waiting.
@@ -52,7 +52,7 @@ struct LabelsCallOptions {
   MaskAdjacency adjacency = MaskAdjacency::k26;
   VoxelPoints points = VoxelPoints::kTwo;
   std::vector<uint64_t> labels = {};  // none: all but 0, the background
-  uint64_t min_voxels = 0;            // smaller labels are left out
+  uint64_t min_voxels = 0;            // smaller labels are skipped
   // As in CallOptions.
   int threads = 0;
   std::chrono::milliseconds timeout = std::chrono::hours(1);
@@ -63,9 +63,9 @@ struct LabelsCallOptions {
 
 // Counts over all labels.
 struct LabelsReport {
-  uint64_t labels = 0;   // handed out
+  uint64_t labels = 0;   // delivered
   uint64_t skipped = 0;  // below min_voxels
-  uint64_t absent = 0;   // wanted, but without a voxel
+  uint64_t absent = 0;   // requested, but without a voxel
 };
 
 }  // namespace bccskel::client

@@ -19,7 +19,8 @@ using grpc::experimental::ClientInterceptorFactoryInterface;
 using grpc::experimental::InterceptionHookPoints;
 using grpc::experimental::InterceptorBatchMethods;
 
-// gRPC's own call credentials refuse connections without TLS, Unix sockets among them.
+// Sends the token. gRPC's own call credentials refuse connections without TLS, including Unix
+// sockets.
 class TokenSender : public grpc::experimental::Interceptor {
  public:
   explicit TokenSender(const std::string& header) : header_(header) {}
@@ -52,10 +53,9 @@ grpc::ChannelArguments ArgumentsFor(Endpoint::Sharing sharing) {
   arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 100);
   arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 200);
   arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 2000);
-  // Retries are counted in one place.
+  // RetryLoop alone retries.
   arguments.SetInt(GRPC_ARG_ENABLE_RETRIES, 0);
-  // A server that vanished without a word is found out within 50 s of a call; servers allow a ping
-  // every 10 s.
+  // Detects a vanished server within 50 s of a call; servers allow a ping every 10 s.
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, 30'000);
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 20'000);
   arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, sharing == Endpoint::Sharing::kAlone);

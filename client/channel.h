@@ -16,9 +16,10 @@ namespace bccskel::client {
 // Errors: as CheckEndpoint().
 absl::StatusOr<std::shared_ptr<grpc::Channel>> OpenChannel(const Endpoint& endpoint);
 
-// After a failure gRPC reconnects by itself, but reads the server's first frame only while a caller
-// waits for the channel: calls after a pause found that the connection had timed out. If the
-// channel is reconnecting, waits for it, for 300 ms and until the deadline at most.
+// If the channel is reconnecting, waits for it, for 300 ms and until the deadline at most. gRPC
+// reconnects by itself after a failure, but reads the server's first frame only while a caller
+// waits for the channel; without this wait, calls after a pause found that the connection had timed
+// out.
 void AwaitReconnection(grpc::Channel& channel, std::chrono::system_clock::time_point deadline);
 
 }  // namespace bccskel::client

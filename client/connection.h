@@ -35,9 +35,11 @@ class Connection {
   //         reply is damaged, which includes a skeleton whose digest is not the stated one.
   virtual absl::StatusOr<SkeletonizeResult> Skeletonize(const EncodedVolume& volume,
                                                         const CallOptions& options) = 0;
-  // Hands each label to `consume`, by ascending label, while the server computes the next ones; the
-  // server waits for a slow consumer. An error of the consumer ends the call and is its result.
-  // Errors: as Skeletonize(). It does not retry after the first label, so no label comes twice.
+  // Passes each label to `consume`, in ascending order, while the server computes the next ones;
+  // the server waits for a slow consumer. An error of the consumer ends the call and becomes its
+  // result.
+  // Errors: as Skeletonize(). Does not retry after the first label, so that none is delivered
+  //         twice.
   virtual absl::StatusOr<LabelsReport> SkeletonizeLabels(const EncodedLabels& volume,
                                                          const LabelsCallOptions& options,
                                                          const LabelConsumer& consume) = 0;

@@ -75,13 +75,14 @@ absl::StatusOr<std::string> DurableClient::Send(const std::string& upload, Durab
     const auto known = std::exchange(begun, DurableStub::Begun::kMaybe);
     absl::StatusOr<std::string> sent = stub_->Upload(upload, known, volume, calls.stop, deadline);
     if (!absl::IsOutOfRange(sent.status())) return sent;
-    // The server has other bytes than it said: those of a stream that broke came late.
+    // The server has a different number of bytes than it reported: those of a broken stream arrived
+    // late.
     return absl::UnavailableError(sent.status().message());
   });
 }
 
 absl::StatusOr<DurableJob> DurableClient::CreateJob(NewJob job, const Calls& calls) {
-  // So that trying again makes no second job.
+  // So that a retry does not create a second job.
   if (job.request_id.empty()) job.request_id = RandomId();
   return Retry(calls, [&](auto deadline) { return stub_->CreateJob(job, deadline); });
 }

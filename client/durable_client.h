@@ -27,7 +27,7 @@ class DurableStub {
   using EventConsumer = std::function<void(const JobEvent&)>;
   virtual ~DurableStub() = default;
 
-  // The volume's name on the server; empty where it is missing.
+  // The volume's name on the server; empty if the server does not have it.
   virtual absl::StatusOr<std::string> FindVolume(const EncodedVolume& volume,
                                                  Deadline deadline) = 0;
   // Sends the bytes of the upload that the server lacks and returns the volume's name. Begun::kNo

@@ -12,7 +12,7 @@
 #include "client/call_options.h"
 #include "core/exec/context.h"
 
-// What a server reports about jobs that it keeps.
+// A server's report about a stored job.
 
 namespace bccskel::client {
 
@@ -41,7 +41,7 @@ struct DurableJob {
 };
 
 struct NewJob {
-  std::string request_id;  // the same again gives the same job; empty: a random one
+  std::string request_id;  // a repeat yields the same job; empty: a random one
   std::string volume;      // volumes/...
   SkeletonizeOptions options;
   ThinVolume thin_volume = ThinVolume::kOmit;
@@ -54,7 +54,7 @@ struct JobPage {
   std::string next_token;        // empty after the last page
 };
 
-// One thing that happened to a job: a change of its state, or a shell.
+// An event of a job: a change of its state, or a thinned shell.
 struct JobEvent {
   uint64_t sequence = 0;
   std::optional<JobState> state;

@@ -31,7 +31,7 @@ absl::Status CheckVolume(const LabelVolume& volume) {
                                                  " slices of ", slice, " bytes are needed"));
 }
 
-// Counts what the server is promised.
+// Counts the figures that the declaration promises.
 class PromiseCounter {
  public:
   explicit PromiseCounter(const std::vector<uint64_t>& wanted)

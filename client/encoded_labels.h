@@ -32,15 +32,15 @@ struct EncodedLabels {
   uint64_t labels = 0;
 };
 
-// Labels as a dense image of the smallest numbers that hold them.
+// A dense image of labels with the fewest bytes per voxel.
 struct DenseLabels {
   int label_bytes = 1;
   std::vector<std::byte> voxels = {};
 };
 DenseLabels DenseLabelsOf(const LabeledObjects& labels);
 
-// Counts only `wanted`; none means all labels.
-// Cost: one comparison a voxel, and compression.
+// Counts only the labels in `wanted`; empty means all.
+// Cost: one comparison per voxel, and compression.
 // Errors: INVALID_ARGUMENT (grid, size of a label, number of bytes), CANCELLED.
 absl::StatusOr<EncodedLabels> EncodeForSending(const LabelVolume& volume,
                                                const std::vector<uint64_t>& wanted,

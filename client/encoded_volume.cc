@@ -12,7 +12,7 @@ namespace {
 // Coordinates and bits of a brick.
 constexpr uint64_t kBrickBytes = 8 + sizeof(BrickBits);
 
-// The wire's compressions: quick to make, small enough.
+// Compressions for sending: fast, and small enough.
 VolumeCompression WireCompression(VolumeEncoding encoding) {
   if (encoding == VolumeEncoding::kRawPlanes) return VolumeCompression::kNone;
   return encoding == VolumeEncoding::kOpenExr ? VolumeCompression::kRle : VolumeCompression::kZstd;

@@ -21,8 +21,8 @@ struct EncodedVolume {
   std::string bytes;
 };
 
-// Bricks where the object fills little of its box, OpenEXR where it fills most of it: whichever is
-// smaller before compression.
+// The encoding that is smaller before compression: bricks if the object fills little of its box,
+// OpenEXR if it fills most of it.
 VolumeEncoding BestEncodingOf(const Volume& volume);
 
 // Errors: INVALID_ARGUMENT, CANCELLED, and those of the encoder's library.

@@ -21,10 +21,9 @@ bool IsOfThisMachine(const std::string& address) {
   return host == "localhost" || host == "[::1]" || (number && host.rfind("127.", 0) == 0);
 }
 
-// gRPC takes port 99999 for 34463, a URL for the name of a host, and a name alone for port 443,
-// where servers with TLS are.
-// Nor does it take a host's control characters for an error: it leaves them out, and what follows
-// NUL.
+// Stricter than gRPC, which reads port 99999 as 34463, a URL as the name of a host, and a name
+// alone as port 443, where servers with TLS are; which drops control characters of a host, and
+// everything after NUL.
 bool IsAddress(const std::string& address, Encryption encryption) {
   if (address.starts_with(kUnix)) {
     return address.size() > kUnix.size() && address.find('\0') == std::string::npos;

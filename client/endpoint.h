@@ -9,10 +9,10 @@
 
 namespace bccskel::client {
 
-// PEM texts.
+// Texts in PEM format.
 struct TlsMaterial {
-  std::string ca;           // who may sign the server's certificate; empty: no TLS
-  std::string certificate;  // the client's own chain, where the server asks for one
+  std::string ca;           // authorities that may sign the server's certificate; empty: no TLS
+  std::string certificate;  // the client's chain, if the server requires one
   std::string key;
 };
 
@@ -20,23 +20,23 @@ struct TlsMaterial {
 struct Endpoint {
   std::string address = "127.0.0.1:50051";  // HOST:PORT or unix:PATH
   TlsMaterial tls;
-  std::string token;  // TokenToSend() goes with each call; empty: none
+  std::string token;  // sent with each call, see TokenToSend(); empty: none
 
   enum class PlaintextToken { kRefuse, kAllow };
   PlaintextToken plaintext_token = PlaintextToken::kRefuse;  // over a network without TLS
 
   enum class Sharing { kShared, kAlone };
-  Sharing sharing = Sharing::kShared;  // of one connection with others to the same address
+  Sharing sharing = Sharing::kShared;  // of one connection by all clients of an address
 };
 
 enum class Encryption { kNone, kTls };
 
-// Errors: INVALID_ARGUMENT for what is neither HOST:PORT nor unix:PATH; with TLS, HOST is enough.
+// Errors: INVALID_ARGUMENT for anything but HOST:PORT and unix:PATH; with TLS, HOST is enough.
 absl::Status CheckAddress(const std::string& address, Encryption encryption);
 
-// The token without the whitespace around it, such as the newline of a file.
-// Errors: INVALID_ARGUMENT, without a character of it, for one that is blank or has others than the
-//         visible ones of ASCII: headers of HTTP/2 cannot hold them, and gRPC aborts.
+// The token without surrounding whitespace, such as the newline of a file.
+// Errors: INVALID_ARGUMENT, which does not reveal the token, if it is blank or has characters other
+//         than visible ASCII: HTTP/2 headers cannot hold them, and gRPC would abort.
 absl::StatusOr<std::string> TokenToSend(std::string_view token);
 
 // Errors: those of CheckAddress() and TokenToSend(); FAILED_PRECONDITION for a token that would

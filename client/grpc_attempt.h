@@ -12,8 +12,8 @@
 
 namespace bccskel::client {
 
-// Makes one attempt at a call on `channel`, which `stop` cancels.
-// Errors: CANCELLED before the call where the stop was requested before; those of `call`.
+// Makes one attempt at a call on `channel`; `stop` cancels it.
+// Errors: CANCELLED if the stop was requested before; those of `call`.
 template <typename Call>
 auto Attempt(grpc::Channel& channel, const std::stop_token& stop,
              std::chrono::system_clock::time_point deadline, Call call)

@@ -23,7 +23,7 @@
 namespace bccskel::client {
 namespace {
 
-// Small enough that a break costs little, large enough for the speed of the line.
+// Small enough that a broken stream costs little, large enough for full speed.
 constexpr size_t kChunkBytes = 512 * 1024;
 
 v1::UploadVolumeRequest ConfigRequest(const std::string& upload, const EncodedVolume& volume) {
@@ -191,7 +191,7 @@ class GrpcDurableStub final : public DurableStub {
                                    const EncodedVolume& volume, uint64_t committed) {
     v1::UploadVolumeResponse response;
     const auto stream = volumes_->UploadVolume(&context, &response);
-    // A write that fails means that the call has ended; Finish() knows why.
+    // A failed write means that the call has ended; Finish() yields the reason.
     bool open = stream->Write(ConfigRequest(upload, volume));
     for (size_t at = committed; open && at < volume.bytes.size(); at += kChunkBytes) {
       open = stream->Write(ChunkRequest(volume, at));

@@ -13,7 +13,7 @@ absl::Status FromGrpcStatus(const grpc::Status& status) {
       details.code() == static_cast<int>(status.error_code())) {
     return wire::FromRpcStatus(details);
   }
-  // Of calls that end on this side gRPC says no more than the code.
+  // For calls that end on this side gRPC reports only the code.
   if (status.error_message() == "Deadline Exceeded") {
     return absl::Status(code, "the deadline passed before the server had answered");
   }

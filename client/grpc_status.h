@@ -7,7 +7,7 @@
 
 namespace bccskel::client {
 
-// The one place where the client takes a grpc::Status apart. The details in its trailer become
+// The only place in the client that reads a grpc::Status. The details in its trailer become
 // payloads of the absl::Status.
 absl::Status FromGrpcStatus(const grpc::Status& status);
 

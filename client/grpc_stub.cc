@@ -23,7 +23,7 @@
 #include "proto/wire/shell_points.h"
 #include "proto/wire/skeleton_chunks.h"
 
-// The only place where the client's calls meet gRPC's channels.
+// The only file in which the client's calls use gRPC's channels.
 
 namespace bccskel::client {
 namespace {
@@ -125,7 +125,8 @@ class SkeletonizeCall final : private UploadCall<v1::SkeletonizeRequest, v1::Ske
   std::optional<Clock::time_point> first_chunk_at_;
 };
 
-// gRPC cancels calls that reach a server in its last moments, which nobody here has asked for.
+// gRPC cancels calls that reach a stopping server: reports CANCELLED that nobody here requested as
+// UNAVAILABLE.
 absl::Status WithoutForeignCancel(const absl::Status& error, const std::stop_token& stop) {
   const bool wanted = stop.stop_requested() || wire::ErrorInfoOf(error).has_value();
   if (!absl::IsCancelled(error) || wanted) return error;
@@ -175,7 +176,7 @@ class GrpcStub : public Stub {
   }
 
  private:
-  // The stream is over, the job is not: goes on with it, or ends it where nobody waits any more.
+  // The stream has ended but the job continues: resumes it, or cancels it if nobody waits any more.
   absl::StatusOr<SkeletonizeResult> AfterStream(const absl::Status& error,
                                                 const AcceptedCall& accepted,
                                                 const EncodedVolume& volume,
@@ -189,7 +190,7 @@ class GrpcStub : public Stub {
     }
     if (absl::IsCancelled(error) || absl::IsDeadlineExceeded(error)) {
       constexpr std::chrono::seconds kFarewell(5);
-      // Where that fails, the job ends by itself.
+      // If this fails, the job ends by itself.
       client.CancelJob(accepted.job, {.timeout = kFarewell, .stop = {}}).status().IgnoreError();
     }
     return error;
@@ -210,7 +211,7 @@ absl::StatusOr<std::unique_ptr<Stub>> MakeGrpcStub(const Endpoint& endpoint) {
 std::unique_ptr<Stub> MakeGrpcStub(const std::string& address) {
   Endpoint endpoint;
   endpoint.address = address;
-  return *MakeGrpcStub(endpoint);  // without secrets nothing is refused
+  return *MakeGrpcStub(endpoint);  // without secrets CheckEndpoint() refuses nothing
 }
 
 }  // namespace bccskel::client

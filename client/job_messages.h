@@ -8,10 +8,10 @@
 
 namespace bccskel::client {
 
-// Reports about jobs, to and from messages.
+// Convert reports about jobs to and from messages.
 v1::CreateJobRequest ToMessage(const NewJob& job);
 DurableJob FromMessage(const v1::Job& message);
-// Nothing for a heartbeat, and for events that this version does not know.
+// nullopt for heartbeats and for events that this version does not know.
 std::optional<JobEvent> FromMessage(const v1::WatchJobResponse& message);
 
 }  // namespace bccskel::client

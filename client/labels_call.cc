@@ -12,7 +12,7 @@
 namespace bccskel::client {
 namespace {
 
-// 0 would mean that nothing is promised.
+// 0 would mean no promise.
 uint64_t AtLeastOne(uint64_t count) { return std::max(count, uint64_t{1}); }
 
 void Declare(const EncodedLabels& volume, v1::LabelVolumeDeclaration& declaration) {

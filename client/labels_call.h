@@ -34,7 +34,7 @@ class LabelsCall final
   const LabelConsumer& consume_;
   std::optional<uint64_t> label_;  // of the last chunk
   wire::SkeletonAssembler assembler_;
-  uint64_t labels_ = 0;      // handed out
+  uint64_t labels_ = 0;      // delivered
   uint64_t last_label_ = 0;  // the last of them
   std::optional<v1::LabelsSummary> summary_;
 };

@@ -104,7 +104,7 @@ absl::StatusOr<std::unique_ptr<Operations>> Operations::Create(const Endpoint& e
 }
 
 absl::Status Operations::CheckHealth(const std::string& service, milliseconds timeout) {
-  constexpr size_t kLongestName = 127;  // as long as its size takes one byte
+  constexpr size_t kLongestName = 127;  // longer names would need two bytes for their size
   if (service.size() > kLongestName) return absl::NotFoundError("no service has such a long name");
   grpc::ClientContext context;
   SetDeadline(context, timeout);

@@ -32,7 +32,7 @@ struct ServerStatus {
   uint64_t jobs = 0;
   uint64_t failed_jobs = 0;
   uint64_t object_points = 0;
-  // What is on disk; empty without a data directory.
+  // Stored data; empty without a data directory.
   struct Stored {
     uint64_t disk_used_bytes = 0;
     uint64_t disk_available_bytes = 0;
@@ -51,14 +51,14 @@ class Operations {
   static absl::StatusOr<std::unique_ptr<Operations>> Create(const Endpoint& endpoint);
   ~Operations();
 
-  // Whether the server, or one service of it ("bccskel.v1.JobService"), takes calls
+  // Whether the server, or one of its services ("bccskel.v1.JobService"), accepts calls
   // (grpc.health.v1).
   // Errors: UNAVAILABLE if it does not or cannot be reached; NOT_FOUND for an unknown service;
   //         DEADLINE_EXCEEDED.
   absl::Status CheckHealth(const std::string& service, std::chrono::milliseconds timeout);
 
-  // Errors: the server's; PERMISSION_DENIED for a token that is not an admin's; UNIMPLEMENTED where
-  //         admin calls are taken at another address.
+  // Errors: the server's; PERMISSION_DENIED for a token that is not an admin's; UNIMPLEMENTED if
+  //         admin calls have another address.
   absl::StatusOr<ServerStatus> GetStatus(std::chrono::milliseconds timeout);
 
  private:

@@ -20,7 +20,7 @@ namespace {
 
 namespace protobuf = google::protobuf;
 
-// Servers send no longer pieces; Protobuf itself reads no messages beyond 2 GiB.
+// Servers send no longer pieces; Protobuf itself reads no messages above 2 GiB.
 constexpr size_t kPieceBytes = 1 << 20;
 
 class Writer {
@@ -71,7 +71,7 @@ absl::StatusOr<SkeletonizeResult> ResultFromBytes(std::string_view bytes) {
   SkeletonReading reading;
   size_t at = 0;
   while (at < bytes.size()) {
-    // A stream of its own for each piece: Protobuf counts the bytes of a stream in an int.
+    // A separate stream for each piece, because Protobuf counts the bytes of a stream in an int.
     const size_t rest = std::min(bytes.size() - at, size_t{INT32_MAX});
     protobuf::io::ArrayInputStream stream(bytes.data() + at, static_cast<int>(rest));
     v1::ReadSkeletonResponse piece;

@@ -9,11 +9,11 @@
 
 namespace bccskel::client {
 
-// A whole result as the messages in which servers send it, each behind its length.
+// A result as the messages that servers send, each preceded by its length.
 // Errors: those of EncodeVolume().
 absl::StatusOr<std::string> ToBytes(const SkeletonizeResult& result);
 
-// Errors: DATA_LOSS for bytes that ToBytes() does not write.
+// Errors: DATA_LOSS for bytes that ToBytes() does not produce.
 absl::StatusOr<SkeletonizeResult> ResultFromBytes(std::string_view bytes);
 
 }  // namespace bccskel::client

@@ -11,7 +11,7 @@
 
 namespace bccskel::client {
 
-// What the server has named when it accepted a durable Skeletonize call.
+// The names that the server states when it accepts a durable Skeletonize call.
 struct AcceptedCall {
   std::string upload;
   std::string job;

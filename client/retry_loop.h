@@ -15,7 +15,7 @@ namespace bccskel::client {
 // How a retrying connection waits between attempts; tests replace it.
 using Pause = std::function<void(std::chrono::milliseconds, const std::stop_token&)>;
 
-// The attempts at one call. They share one deadline; a pause that would pass it is not begun.
+// The attempts at one call. They share one deadline; a pause that would exceed it is not begun.
 // Threads: one at a time.
 class RetryLoop {
  public:
@@ -32,8 +32,8 @@ class RetryLoop {
 
   Clock::time_point deadline() const { return deadline_; }
 
-  // Whether to try again after this error, after a pause. What it returns otherwise is how the call
-  // ends.
+  // Pauses and yields nullopt if the call should be tried again after this error; else yields the
+  // call's final status.
   std::optional<absl::Status> EndAfter(const absl::Status& error) {
     const std::optional<std::chrono::milliseconds> wait = pauses_.Next(error);
     if (!wait.has_value() || Clock::now() + *wait >= deadline_) return error;
@@ -42,7 +42,7 @@ class RetryLoop {
     return absl::CancelledError("cancelled while waiting to try again");
   }
 
-  // Something came through: the next break is the first one again.
+  // The attempt made progress: resets the pauses and the count of attempts.
   void Progressed() { pauses_ = RetryPauses(policy_); }
 
  private:

@@ -11,7 +11,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-// A server cannot make a client wait longer at a time.
+// The longest pause that a server can request.
 constexpr absl::Duration kLongestDelay = absl::Hours(1);
 
 milliseconds Scaled(milliseconds duration, double factor) {

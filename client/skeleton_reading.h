@@ -16,17 +16,17 @@ namespace bccskel::client {
 // Assembles a result from its pieces.
 class SkeletonReading {
  public:
-  // Errors: DATA_LOSS for what is damaged, repeated or out of order.
+  // Errors: DATA_LOSS for damaged, repeated or misplaced pieces.
   absl::Status Add(const v1::SkeletonChunk& chunk);
   absl::Status Add(const v1::ThinVolumeChunk& chunk);
   absl::Status Add(v1::SkeletonSummary summary);
-  // Whichever of these it is; takes the summary out of `piece`.
+  // Adds whichever piece it holds; moves the summary out of `piece`.
   absl::Status Add(v1::ReadSkeletonResponse& piece);
 
   // The number of pieces so far, which is the index of the next one.
   uint32_t pieces() const { return pieces_; }
 
-  // Errors: DATA_LOSS where the summary is missing, and for a result that does not agree with it.
+  // Errors: DATA_LOSS if the summary is missing or contradicts the result.
   absl::StatusOr<SkeletonizeResult> Finish() &&;
 
  private:

@@ -21,12 +21,12 @@ class SkeletonizeClient {
   explicit SkeletonizeClient(std::shared_ptr<Connection> connection)
       : connection_(std::move(connection)) {}
 
-  // The same result as core/pipeline gives on this machine; `thin` only where the options ask.
+  // The same result as core/pipeline on this machine; `thin` only if the options request it.
   // Errors: see Connection::Skeletonize().
   absl::StatusOr<SkeletonizeResult> Skeletonize(const Volume& object, const CallOptions& options);
 
-  // The skeleton of every label of a segmented image, as core/labels makes them on this machine
-  // (without `thin`), each passed to `consume` as soon as it arrives.
+  // The skeleton of every label of a segmented image, as from core/labels on this machine (without
+  // `thin`). Passes each to `consume` as soon as it arrives.
   // Errors: INVALID_ARGUMENT (volume); see Connection::SkeletonizeLabels().
   absl::StatusOr<LabelsReport> SkeletonizeLabels(const LabelVolume& volume,
                                                  const LabelsCallOptions& options,

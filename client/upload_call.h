@@ -30,7 +30,7 @@ class UploadCall {
  protected:
   // Errors: the server's; DATA_LOSS; those of Take(), which cancel the call.
   absl::Status Converse(const Request& config, const std::string& bytes) {
-    // A write that fails means that the call has ended; Finish() knows why.
+    // A failed write means that the call has ended; Finish() yields the reason.
     const bool sent = stream_.Write(config) && ReadAccepted() && SendVolume(bytes);
     sent_at_ = Clock::now();
     if (sent) ReadReplies();
@@ -38,13 +38,13 @@ class UploadCall {
     return reply_error_.ok() ? FromGrpcStatus(ended) : reply_error_;
   }
 
-  // How long it took until all was sent.
+  // Time until everything was sent.
   Clock::duration UploadTime() const { return sent_at_ - started_at_; }
 
-  // What the server has named if it keeps the call's job; else empty.
+  // The names of the stored upload and job, if the server keeps them; else empty.
   const AcceptedCall& accepted() const { return accepted_; }
 
-  // One reply after the first.
+  // Handles one reply after the first.
   virtual absl::Status Take(Response& response) = 0;
 
  private:
@@ -68,7 +68,7 @@ class UploadCall {
     for (size_t offset = 0; offset < bytes.size() && chunk_bytes_ > 0; offset += chunk_bytes_) {
       request.mutable_chunk()->set_offset(offset);
       request.mutable_chunk()->set_data(bytes.substr(offset, chunk_bytes_));
-      // Something follows at once: small volumes go in one write to the socket.
+      // More follows immediately: the hint sends small volumes in one write to the socket.
       if (!stream_.Write(request, grpc::WriteOptions().set_buffer_hint())) return false;
     }
     const Sha256Digest digest = Sha256Of(bytes);

@@ -40,7 +40,7 @@ std::string HintFor(std::string_view error) {
   return "see --help";
 }
 
-// How many letters have to be changed, added or left out to make one of the other.
+// The number of letters to change, add or remove to turn one word into the other.
 size_t EditDistance(std::string_view one, std::string_view other) {
   std::vector<size_t> row(other.size() + 1);
   std::iota(row.begin(), row.end(), size_t{0});
@@ -55,7 +55,7 @@ size_t EditDistance(std::string_view one, std::string_view other) {
   return row.back();
 }
 
-// "; did you mean ...?", where a known word is near.
+// "; did you mean ...?" if a known word is similar.
 std::string Suggestion(const std::string& word, const std::vector<std::string>& known) {
   const auto distance = [&](const std::string& name) { return EditDistance(word, name); };
   const auto nearest = std::ranges::min_element(known, {}, distance);
@@ -72,7 +72,7 @@ void AddOptionNames(const CLI::App& command, std::vector<std::string>& names) {
   }
 }
 
-// The commands that the words of a command are followed by: of bench, core and server.
+// The subcommands of a command, as of `bench`.
 std::vector<std::string> CommandsOf(const CLI::App& command) {
   std::vector<std::string> names;
   for (const CLI::App* inner : command.get_subcommands([](const CLI::App*) { return true; })) {
@@ -85,8 +85,8 @@ std::string CommandRequired(const CLI::App& app) {
   return "a command is required: " + absl::StrJoin(CommandsOf(app), ", ");
 }
 
-// What is said of a command or an option that does not exist, or of a nested command that is
-// missing; empty: neither. CLI11 would rather tell what is missing beside it.
+// The error for an unknown command or option, or for a missing subcommand; empty: neither. CLI11
+// would report a missing argument instead.
 std::string UnknownWord(const CLI::App& app) {
   const std::vector<std::string> rest = app.remaining(true);
   const CLI::App* command = &app;
@@ -115,7 +115,7 @@ std::vector<std::string> WithoutHelpCommand(std::vector<std::string> words) {
   return words;
 }
 
-// The command that completions/ call with the words of a command line.
+// The command that the scripts in completions/ call with the words of a command line.
 constexpr std::string_view kComplete = "__complete";
 
 class CommandLine {
@@ -136,7 +136,7 @@ class CommandLine {
   }
 
   CLI::App& app() { return app_; }
-  // The command named, with its options; the last one that is known where names are nested.
+  // The named command with its options; of nested names, the last known one.
   CLI::App& Find(std::span<const std::string> names) {
     CLI::App* found = &app_;
     for (const std::string& name : names) {
@@ -152,9 +152,9 @@ class CommandLine {
   const Arguments& given() const { return given_.back(); }
 
  private:
-  // Options are added when the command is given: all commands have hundreds, which take as long as
-  // the skeleton of a small object. Option groups among them have a parse_complete_callback():
-  // CLI11 calls callback() only of those that were there before.
+  // Adds the options only when the command is given: those of all commands are hundreds, and adding
+  // them takes as long as the skeleton of a small object. Option groups therefore have a
+  // parse_complete_callback(): CLI11 calls callback() only for those that existed before.
   template <typename T>
   void Add(CLI::App& parent, const char* name, void (*add_options)(CLI::App&, T&),
            const char* description) {
@@ -199,7 +199,7 @@ class CommandLine {
 
   CLI::App app_{"Curve skeletons by parallel thinning on the body-centered cubic grid", "bccskel"};
   std::map<const CLI::App*, std::function<void()>> option_adders_;
-  std::list<Arguments> given_;  // by the options of each command given, the last one's behind
+  std::list<Arguments> given_;  // of each given command; the last is innermost
 };
 
 // ---- Completion ----
@@ -213,7 +213,7 @@ struct Completions {
     if (!word.starts_with(prefix)) return;
     text += word + '\t' + description.substr(0, description.find('\n')) + '\n';
   }
-  // The shell completes the names of files.
+  // Lets the shell complete names of files.
   void AddFiles() { text += ":files\n"; }
 };
 
@@ -238,7 +238,7 @@ void CompleteValue(const CLI::Option& option, Completions& completions) {
   }
 }
 
-// "One of ball, torus": the values of a positional; others are files.
+// "One of ball, torus" lists the values of a positional argument; others are files.
 void CompletePositional(const CLI::App& command, Completions& completions) {
   constexpr std::string_view kChoice = "One of ";
   for (const CLI::Option* option : command.get_options()) {
@@ -252,7 +252,7 @@ void CompletePositional(const CLI::App& command, Completions& completions) {
   completions.AddFiles();
 }
 
-// What may stand in place of the last of `words`.
+// The completions of the last of `words`.
 std::string CompletionsOf(std::span<const std::string> words) {
   CommandLine line;
   const std::span<const std::string> before = words.first(words.size() - 1);
@@ -289,7 +289,7 @@ std::variant<Arguments, ExitCode> ParseArguments(int argc, const char* const* ar
   CommandLine line;
   try {
     std::vector<std::string> backwards = WithoutHelpCommand(words);
-    std::ranges::reverse(backwards);  // the order that CLI11 takes a vector in
+    std::ranges::reverse(backwards);  // CLI11 takes the words of a vector in reverse order
     line.app().parse(std::move(backwards));
   } catch (const CLI::ParseError& error) {
     std::ostringstream out, err;

@@ -31,7 +31,7 @@ class App;
 
 namespace bccskel::cli {
 
-// What all commands know.
+// Arguments of all commands.
 struct CommonArguments {
   SummaryStyle summary = SummaryStyle::kText;
   int threads = 0;  // 0: all of the machine, or the server's choice
@@ -55,23 +55,23 @@ struct VoxelizeArguments {
   ImageArguments image;
 };
 
-// kHere: on this machine, since no place was named.
+// kHere: on this machine, because no place was given.
 enum class Place { kServer, kLocal, kHere };
 
-// Whether `submit` waits for the result, or names the job and ends.
+// Whether `submit` waits for the result, or prints the job's name and ends.
 enum class Waiting { kForResult, kDetach };
 
-// `submit` is the same with a volume as the only kind of input and a server as the only place.
+// `submit` is `skeletonize` with volumes as the only input and a server as the only place.
 enum class AcceptedInput { kAll, kVolumeOnly };
 
-// What skeletons are made of, how and where.
+// The input of skeletons, how they are computed and where.
 struct ComputeArguments {
   CommonArguments common;
   std::string input;
   std::vector<std::string> outputs;
   ImageArguments image;
   SkeletonizeOptions skeletonize;
-  std::optional<RootChoice> root;  // the trees are ordered from there
+  std::optional<RootChoice> root;  // where the order of trees begins
   exporting::CurveSampling swc;    // of SWC files
   Place place = Place::kServer;
   ServerArguments server;
@@ -84,12 +84,12 @@ struct SkeletonizeArguments : ComputeArguments {
   VoxelizeOptions grid;  // of a mesh
   SkeletonImages images;
   Waiting waiting = Waiting::kForResult;
-  client::ThinVolume thin_volume = client::ThinVolume::kOmit;  // of a job that is not waited for
-  LayerPart part;  // of the object, that this process reads
+  client::ThinVolume thin_volume = client::ThinVolume::kOmit;  // for a detached job
+  LayerPart part;  // the part of the object that this process reads
 };
 
-// The skeleton of every label of an image: of those that `image` names, or of all. An output with
-// exporting::kLabelPlace is a file per label.
+// The skeleton of each label of an image: those that `image` names, or all. An output with
+// exporting::kLabelPlace is one file per label.
 struct LabelsArguments : ComputeArguments {
   uint64_t min_voxels = 1;
 };
@@ -100,7 +100,7 @@ struct InfoArguments {
   ImageArguments image;
 };
 
-// A JSON result, the mesh, volume or image that it was made from, and what is made of both.
+// A JSON result, the mesh, volume or image that it was made from, and the output made from both.
 struct ResultArguments {
   CommonArguments common;
   std::string result;
@@ -146,7 +146,7 @@ struct JobArguments {
   std::string job;
 };
 
-// What becomes of a job when its user no longer waits.
+// What happens to a job when its user stops waiting.
 enum class OnInterrupt { kCancel, kLeave };
 
 struct WaitingArguments {
@@ -176,7 +176,7 @@ struct FetchArguments {
   std::string object;            // the volume that was submitted; empty: not available
 };
 
-// Is the server ready for calls?
+// Checks whether the server is ready for calls.
 struct ProbeArguments {
   CommonArguments common;
   ServerArguments server;
@@ -243,7 +243,7 @@ void AddFetch(CLI::App& command, FetchArguments& arguments);
 void AddProbe(CLI::App& command, ProbeArguments& arguments);
 void AddTop(CLI::App& command, TopArguments& arguments);
 
-// Each runs one command, prints what it has to say and returns how the program ends.
+// Each runs one command, prints its output and returns the exit code.
 ExitCode Run(const VoxelizeArguments& arguments, const std::stop_token& stop);
 ExitCode Run(const SkeletonizeArguments& arguments, const std::stop_token& stop);
 ExitCode Run(const LabelsArguments& arguments, const std::stop_token& stop);
@@ -263,32 +263,32 @@ ExitCode Run(const FetchArguments& arguments, const std::stop_token& stop);
 ExitCode Run(const ProbeArguments& arguments, const std::stop_token& stop);
 ExitCode Run(const TopArguments& arguments, const std::stop_token& stop);
 
-// What several processes do together in place of this one.
+// Work that several processes do together instead of this one.
 struct SharedWork {
-  // Makes this process's part of the object in place of reading it; may be null.
+  // Generates this process's part of the object instead of reading it; may be null.
   std::function<absl::StatusOr<Volume>(const exec::Context& context)> make;
-  // Skeletonize() of all parts. The whole object takes the place of the part.
+  // Skeletonize() of all parts. Replaces the part with the whole object.
   std::function<absl::StatusOr<SkeletonizeResult>(Volume& object, const SkeletonizeOptions& options,
                                                   const exec::Context& context)>
       compute;
 };
-// `skeletonize` as the one of several processes that writes and reports.
+// Runs `skeletonize` as the one of several processes that writes and reports.
 ExitCode RunShared(const SharedWork& work, const SkeletonizeArguments& arguments,
                    const std::stop_token& stop);
-// What another of them reads, or makes of the input: the part of the arguments, which for meshes
-// and OpenEXR files is nothing.
+// Loads the part of the input for another of these processes. For meshes and OpenEXR files it is
+// empty.
 absl::StatusOr<Volume> LoadPart(const SkeletonizeArguments& arguments,
                                 const exec::Context& context);
 
-// Whether the command's files can be written, asked before work of hours. Errors: as
+// Checks that the command's output files can be written, before hours of work. Errors: as
 // CheckWritable(), for the first that cannot.
 absl::Status CheckOutputs(const Arguments& arguments);
 
-// Checks how the arguments fit together. Errors: INVALID_ARGUMENT.
+// Checks that the arguments are consistent. Errors: INVALID_ARGUMENT.
 absl::Status Validate(const Arguments& arguments);
 
-// Reads the command line. Where nothing is left to do (--help, --version, a usage error), the text
-// has been printed and the exit code is returned.
+// Parses the command line. If nothing is left to do (--help, --version, a usage error), prints the
+// text and returns the exit code.
 std::variant<Arguments, ExitCode> ParseArguments(int argc, const char* const* argv);
 
 }  // namespace bccskel::cli

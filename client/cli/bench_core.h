@@ -16,15 +16,16 @@
 
 // Measures the engine: a volume in memory becomes a skeleton in memory, without files or a server.
 
-// What the engine is measured on, here and in tests/bench: shapes of core/import/shapes, but
+// The objects that benchmarks measure, here and in tests/bench: shapes of core/import/shapes,
+// except that
 //   blob        has 2 % of its boundary flipped, as scanned objects have;
-//   thin-tubes  are the tubes twelve times as long, about 0.01 % of their box.
+//   thin-tubes  is the tubes twelve times as long, about 0.01 % of their box.
 
 namespace bccskel::cli {
 
 using Milliseconds = std::chrono::duration<double, std::milli>;
 
-// From the solid to thin points; the whole has certificate and graph besides.
+// The time from the solid to thin points. WholeTime() includes the certificate and the graph.
 inline Milliseconds CoreTime(const StageTimings& timings) {
   return timings.distance + timings.shells + timings.thinning + timings.cleanup;
 }
@@ -32,7 +33,7 @@ inline Milliseconds WholeTime(const StageTimings& timings) { return timings.tota
 
 struct Spread {
   double min = 0;
-  double median = 0;  // of an even number of values, the mean of the two in the middle
+  double median = 0;  // of an even number of values, the mean of the middle two
   double max = 0;
 };
 Spread SpreadOf(std::vector<double> values);  // Needs: at least one value.
@@ -40,29 +41,29 @@ Spread SpreadOf(std::vector<double> values);  // Needs: at least one value.
 struct CoreMeasurement {
   uint64_t points = 0;
   size_t bricks = 0;
-  StageTimings cold;               // first run, on memory that the process did not have before
-  std::vector<StageTimings> warm;  // the runs after it
+  StageTimings cold;               // first run, on memory new to the process
+  std::vector<StageTimings> warm;  // the later runs
   // Of the cold run: the object, everything computed from it, and the result.
   std::optional<uint64_t> peak_bytes;
   std::string sha256;  // of the skeleton
 };
 
-// Those of the paper for its method unless others are given.
+// The paper's distances for its method, unless others are given.
 inline DistanceKind DistanceFor(ThinningMethod method, std::optional<DistanceKind> given) {
   const bool symmetric = method == ThinningMethod::kSymmetric;
   return given.value_or(symmetric ? DistanceKind::kEuclidean : DistanceKind::kChamfer);
 }
 
-// One cold run and `repeat` warm ones. A tiny object goes first, so that the cold run does not have
-// to load the program's code.
+// One cold run and `repeat` warm ones. Thins a tiny object first, so that the cold run does not
+// load the program's code.
 // Needs:  repeat >= 1.
 // Errors: as Skeletonize(); INTERNAL if two runs gave different skeletons.
 absl::StatusOr<CoreMeasurement> MeasureCore(const Volume& object, const SkeletonizeOptions& options,
                                             int repeat, const exec::Context& context);
 
-// By how much the resident memory of this process has grown at its highest, from construction on.
-// Construction gives memory that was freed, but not returned, back to the system first, so that its
-// reuse counts. Linux only: VmRSS and VmHWM, which are right within about 0.5 MB.
+// The peak growth of this process's resident memory since construction. The constructor first
+// returns freed memory to the system, so that its reuse counts. Linux only: VmRSS and VmHWM,
+// accurate to about 0.5 MB.
 class PeakGrowth {
  public:
   PeakGrowth();

@@ -30,7 +30,7 @@ std::string NameOf(const BenchCoreArguments& arguments) {
   return arguments.object.empty() ? arguments.shape : std::string(FileName(arguments.object));
 }
 
-// What is timed, in milliseconds.
+// A measured time in milliseconds.
 struct Figure {
   const char* name;
   double (*of)(const StageTimings&);

@@ -30,22 +30,22 @@
 
 namespace bccskel::cli {
 
-// Where the time of one call went.
+// Times of one call.
 struct ServedCall {
   std::chrono::nanoseconds latency{0};  // from the first byte to the checked skeleton
   client::CallTimes way;
   StageTimings stages;
 };
 
-// What some clients at the same time saw of a server.
+// Measurements of a server with a number of concurrent clients.
 struct ServerMeasurement {
   int clients = 0;
   uint64_t points = 0;                 // of the volume
   uint64_t volume_bytes = 0;           // as sent
   std::chrono::nanoseconds encode{0};  // of the volume, before all calls
   double seconds = 0;
-  uint64_t refused = 0;           // UNAVAILABLE: tried again after a pause
-  std::vector<ServedCall> calls;  // that gave a skeleton, by ascending latency
+  uint64_t refused = 0;           // UNAVAILABLE, repeated after a pause
+  std::vector<ServedCall> calls;  // successful calls in ascending order of latency
 };
 
 // A part of a served call's time.
@@ -53,19 +53,19 @@ struct TimeShare {
   const char* name;
   std::function<std::chrono::nanoseconds(const ServedCall&)> of;
 };
-// In the order in which they begin. Decoding goes on while the volume arrives; "rest" is what is
-// neither upload, stage nor download: the end of decoding, the queue, hand-over, the check.
+// In the order in which they begin. Decoding overlaps with the upload; "rest" is neither upload,
+// stage nor download: the end of decoding, the queue, handover and the check.
 std::vector<TimeShare> SharesOfCalls();
 
-// The middle one of the calls' values. Needs: a call.
+// The median over the calls. Needs: at least one call.
 std::chrono::nanoseconds MedianOf(const ServerMeasurement& measured, const TimeShare& share);
 
-// The latency that `share` of the calls did not exceed, 0 to 1. Needs: a call.
+// The latency that `share` (0 to 1) of the calls did not exceed. Needs: at least one call.
 std::chrono::nanoseconds Percentile(const ServerMeasurement& measured, double share);
 
 // Each client has its own connection and sends `volume` with `options` again as soon as it has the
-// skeleton. What comes back is checked as always. A first call of each is not counted. Errors: of
-// the first call that fails otherwise than by UNAVAILABLE with a delay.
+// skeleton, which it checks as usual. The first call of each client does not count.
+// Errors: of the first call that fails with anything but UNAVAILABLE with a delay.
 absl::StatusOr<ServerMeasurement> MeasureServer(const client::Endpoint& endpoint,
                                                 const client::EncodedVolume& volume,
                                                 const SkeletonizeOptions& options, int clients,
@@ -77,7 +77,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-// What one client sees.
+// The measurements of one client.
 struct Share {
   absl::Status status;
   uint64_t refused = 0;
@@ -218,7 +218,7 @@ double PointsPerSecond(const ServerMeasurement& measured) {
   return CallsPerSecond(measured) * static_cast<double>(measured.points);
 }
 
-// A call in the middle and the encoding before it, by points.
+// The median call and the encoding before it, per point.
 double NanosecondsPerPoint(const ServerMeasurement& measured) {
   const auto time = measured.encode + Percentile(measured, 0.5);
   return static_cast<double>(time.count()) / static_cast<double>(measured.points);
@@ -238,7 +238,7 @@ std::string Heading() {
                          "ns/point");
 }
 
-// What a call's time consists of, a column for each measurement.
+// The parts of a call's time, one column per measurement.
 std::string SharesTable(const std::vector<ServerMeasurement>& all) {
   std::string table = absl::StrFormat("\n%-12s", "median ms");
   for (const ServerMeasurement& measured : all) {
@@ -277,7 +277,7 @@ std::string Json(const ServerMeasurement& measured) {
       NanosecondsPerPoint(measured), ms(0.5), ms(0.9), ms(0.99), ms(1), SharesJson(measured));
 }
 
-// The best of a few runs, as the calls are warm, too.
+// The fastest of a few runs, because the calls are warm, too.
 absl::StatusOr<client::EncodedVolume> EncodeInTime(const Volume& volume, VolumeEncoding encoding,
                                                    const std::stop_token& stop,
                                                    std::chrono::nanoseconds& best) {

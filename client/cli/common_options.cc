@@ -20,7 +20,7 @@ namespace {
 
 constexpr char kTokenVariable[] = "BCCSKEL_TOKEN_FILE";
 
-// Empty where no file is named.
+// The text of the file; empty if the path is.
 absl::StatusOr<std::string> ReadText(const std::string& path) {
   if (path.empty()) return std::string();
   std::ifstream file(path, std::ios::binary);
@@ -36,7 +36,7 @@ std::string TokenPath(const ServerArguments& server) {
   return server.token_file.empty() && variable != nullptr ? variable : server.token_file;
 }
 
-// The first line of the file. Never part of a message.
+// The first line of the file. Messages never contain it.
 absl::StatusOr<std::string> ReadToken(const std::string& path) {
   BCCSKEL_ASSIGN_OR_RETURN(const std::string text, ReadText(path));
   absl::StatusOr<std::string> token = client::TokenToSend(text.substr(0, text.find('\n')));

@@ -52,7 +52,7 @@ void AddInput(CLI::App& command, const char* name, std::string& path, const char
 // --output: a file whose name ends in one of `endings`.
 void AddOutput(CLI::App& command, std::string& path, const char* what,
                const std::vector<std::string>& endings);
-// --output of a volume; its ending is checked later, with what else is wrong.
+// --output of a volume; Validate() checks its ending.
 void AddVolumeOutput(CLI::App& command, std::string& path);
 // --output of skeletons, any number of them; `what` describes them, by default all formats.
 CLI::Option* AddOutputs(CLI::App& command, std::vector<std::string>& outputs,
@@ -63,12 +63,12 @@ void AddResult(CLI::App& command, std::string& path);
 enum class ObjectNeed { kRequired, kOptional };
 void AddResultAndObject(CLI::App& command, ResultArguments& arguments, ObjectNeed need);
 
-// What the benchmarks thin and `generate` makes. ReadBenchPoints() throws CLI::ValidationError.
+// Options of the benchmarks and `generate`. ReadBenchPoints() throws CLI::ValidationError.
 uint64_t ReadBenchPoints(const std::string& given);
 CLI::Option* AddBenchShape(CLI::App& command, std::string& shape, const char* description);
 void AddBenchMethod(CLI::App& command, ThinningMethod& method,
                     std::optional<DistanceKind>& distance, const char* description);
-// A word for each name, which stands for itself.
+// Choices in which each name stands for itself.
 template <typename Names>
 std::vector<std::pair<std::string, std::string>> Themselves(const Names& names) {
   std::vector<std::pair<std::string, std::string>> words;

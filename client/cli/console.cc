@@ -58,7 +58,7 @@ void PrintLine(std::string_view kind, std::string_view message) {
                static_cast<int>(message.size()), message.data());
 }
 
-// Somebody listens, but does not answer as a server does; in gRPC's words.
+// Whether gRPC's message says that something listens there but does not respond like a server.
 bool BreaksOff(std::string_view message) {
   const auto tells = [message](std::string_view what) {
     return message.find(what) != message.npos;
@@ -66,7 +66,7 @@ bool BreaksOff(std::string_view message) {
   return tells("failed to connect") && !tells("to remote host") && !tells("imeout");
 }
 
-// Who speaks plainly to a server with TLS learns from it only that the connection broke.
+// Whether the server may require TLS: to a plaintext client this looks like a broken connection.
 bool MayWantTls(const ServerArguments& server, const absl::Status& error) {
   return absl::IsUnavailable(error) && !wire::ErrorInfoOf(error).has_value() &&
          BreaksOff({error.message().data(), error.message().size()}) && server.tls_ca.empty() &&
@@ -78,7 +78,7 @@ bool LacksToken(const ServerArguments& server, const absl::Status& error) {
          std::getenv("BCCSKEL_TOKEN_FILE") == nullptr;
 }
 
-// Who computes here has started no job.
+// The error's message without a mention of jobs, which do not exist on this machine.
 std::string MessageHere(const absl::Status& error) {
   constexpr std::string_view kOfJob = "the job was cancelled";
   std::string message(error.message());
@@ -88,7 +88,7 @@ std::string MessageHere(const absl::Status& error) {
   return message;
 }
 
-// Files that may not be read are no question of credentials.
+// kCredentials only for servers: an unreadable file is not a question of credentials.
 ExitCode CodeOf(const absl::Status& error) {
   return absl::IsPermissionDenied(error) ? ExitCode::kCredentials : ExitCodeOf(error);
 }
@@ -135,7 +135,7 @@ ExitCode Print(std::string_view text) {
 namespace {
 
 constexpr uint64_t kBarWidth = 28;
-// A terminal is redrawn no more often than the eye sees.
+// Redraws are no more frequent than the eye can see.
 constexpr std::chrono::milliseconds kRedrawPause(50);
 
 // "[####----] WHAT N/TOTAL  MORE12.3 s"
@@ -194,7 +194,7 @@ void ProgressBar::Show(const std::string& line, bool last) {
   }
   const Clock::time_point now = Clock::now();
   if (now - shown_ < kRedrawPause && !last) return;
-  std::fprintf(stderr, "\r%s\033[K", line.c_str());  // and clears what a longer line left
+  std::fprintf(stderr, "\r%s\033[K", line.c_str());  // clears the rest of a longer line
   std::fflush(stderr);
   shown_ = now;
   line_open_ = true;

@@ -30,13 +30,13 @@ enum class ProgressStyle {
 enum class ExitCode : int {
   kOk = 0,
   kUsage = 2,        // the command line itself is wrong
-  kBadInput = 3,     // the input cannot be read, or is not what it should be
+  kBadInput = 3,     // the input cannot be read or is invalid
   kUnavailable = 4,  // no server, or the server went away
   kStopped = 5,      // the deadline passed, or the server cancelled the job
-  kInternal = 6,     // a defect: topology was not kept, a reply is damaged, a job crashes servers
+  kInternal = 6,     // a defect: changed topology, a damaged reply, a job that crashes servers
   kTooLarge = 7,     // over a limit of the server or of this machine
   kOutput = 8,       // an output file cannot be written
-  kCredentials = 9,  // a token is missing, wrong, or not one for this
+  kCredentials = 9,  // a token is missing, wrong or lacks the permission
   kInterrupted = 130,
   kTerminated = 143,
 };
@@ -44,29 +44,29 @@ enum class ExitCode : int {
 // The exit code for an error of the input or of a job.
 ExitCode ExitCodeOf(const absl::Status& status);
 
-// What a command says. Results go to standard output, everything else to standard error, behind the
-// name of the program.
+// The output of commands. Results go to standard output, everything else to standard error, after
+// the name of the program.
 
-// "bccskel" unless set. Needs: `name` stays; called before any command runs.
+// "bccskel" unless set. Needs: `name` outlives all commands; called before any command runs.
 void SetProgramName(std::string_view name);
 std::string_view ProgramName();
 
 void Warn(std::string_view message);
 void Note(std::string_view message);
 
-// Prints the error, with a hint where there is one, and returns the exit code for it.
-// CANCELLED is an interruption here, and that of a job only in FailOnServer().
+// Prints the error and the hint, if any, and returns the exit code. Takes CANCELLED as an
+// interruption; only FailOnServer() takes it as a cancelled job.
 ExitCode Fail(const absl::Status& error, std::string_view hint = "");
 ExitCode FailWith(ExitCode code, const absl::Status& error);
 
-// For failures between the user and a server, which the message names. A specific hint says what
-// else may be wrong with the connection.
+// For failures between the user and a server, which the message names. A specific hint suggests
+// what may be wrong with the connection.
 inline constexpr std::string_view kNoServerHint =
     "start bccskel-server, name another server with --server, or compute here with --local";
 ExitCode FailOnServer(const ServerArguments& server, const absl::Status& error,
                       std::string_view hint = "");
 
-// Prints a command's result. kOutput when standard output takes no more.
+// Prints a command's result. kOutput if standard output cannot be written.
 ExitCode Print(std::string_view text);
 
 // "[######----] shell 6/10  123,456 points removed, 7,890 left  1.2 s", without a line end.
@@ -82,7 +82,7 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  // What a job calls after each shell, or after some labels of so many; empty if nothing is to be
+  // Callbacks for after each shell, or for the number of finished labels; empty if nothing is to be
   // shown.
   std::function<void(const exec::ShellProgress&)> Callback();
   std::function<void(uint64_t done, uint64_t total)> LabelsCallback();
@@ -100,9 +100,9 @@ class ProgressBar {
   bool line_open_ = false;
 };
 
-// Turns Ctrl-C (SIGINT) and SIGTERM into a stop request; the second one ends the program at once.
-// Signals are read by a thread, so nothing runs inside a signal handler.
-// Needs: made before any other thread, so that all threads inherit the blocked signals.
+// Turns Ctrl-C (SIGINT) and SIGTERM into a stop request; the second signal ends the program at
+// once. A thread reads signals, so nothing runs inside a signal handler.
+// Needs: created before any other thread, so that all threads inherit the blocked signals.
 class Interrupt {
  public:
   Interrupt();
@@ -111,7 +111,7 @@ class Interrupt {
   Interrupt& operator=(const Interrupt&) = delete;
 
   std::stop_token token() const { return source_.get_token(); }
-  // 130 or 143 once a signal came.
+  // 130 or 143 after a signal.
   std::optional<ExitCode> exit_code() const;
 
  private:
@@ -124,10 +124,10 @@ class Interrupt {
   std::thread thread_;
 };
 
-// The threads of this machine that a command may use, and the context that hands them on.
+// The threads of this machine that a command may use, and a context with them.
 class LocalTeam {
  public:
-  // `threads` 0 takes as many as the machine runs at once.
+  // `threads` 0 means one per hardware thread.
   LocalTeam(int threads, const std::stop_token& stop)
       : team_(threads > 0 ? threads
                           : std::max(1, static_cast<int>(std::thread::hardware_concurrency()))) {

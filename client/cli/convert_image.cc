@@ -14,7 +14,7 @@
 #include "core/labels/label_collector.h"
 #include "core/mask/mask_converter.h"
 
-// What an image becomes under the options of image_options.cc.
+// Converts images by the options of image_options.cc.
 
 namespace bccskel::cli {
 
@@ -24,8 +24,8 @@ MaskGrid GridOf(const ImageInfo& info) {
 
 namespace {
 
-// Reads an image, several slices at once where they are small, each turned by
-// `take(slice, room)` into `slice_size` values, which `use(values)` gets in order.
+// Reads an image, several small slices at a time. `take(slice, room)` converts a slice into
+// `slice_size` values, which `use(values)` receives in order.
 template <typename Take, typename Use>
 absl::Status ReadSlices(ImageSource& source, size_t slice_size, const exec::Context& context,
                         Take take, Use use) {
@@ -52,7 +52,7 @@ absl::Status ReadSlices(ImageSource& source, size_t slice_size, const exec::Cont
       [&](size_t part, Room& room) { return each(part, room, use); });
 }
 
-// Whether the object is everything but 0, since nothing else was said.
+// Whether the object is everything but 0 because nothing else was requested.
 bool IsPlain(const ImageArguments& arguments) {
   return arguments.labels.empty() && arguments.range.empty() && !arguments.threshold.has_value() &&
          !arguments.below.has_value() && !arguments.invert;

@@ -12,8 +12,8 @@
 
 namespace bccskel::cli {
 
-// Writes many small files, several at a time: each file is synced before it takes its name, and the
-// disk syncs 16 files in about the time of one. Has no threads before the first task.
+// Writes many small files concurrently: each file is synced before it gets its name, and the disk
+// syncs 16 files in about the time of one. Starts threads with the first task.
 // Threads: Add() and Finish() from one thread; tasks run on others.
 class FileWriters {
  public:
@@ -24,8 +24,7 @@ class FileWriters {
   FileWriters(const FileWriters&) = delete;
   FileWriters& operator=(const FileWriters&) = delete;
 
-  // Blocks while many tasks wait. Errors: the first of all tasks so far; the tasks after it are
-  // dropped.
+  // Blocks while many tasks wait. Errors: the first of all tasks so far; later tasks are dropped.
   absl::Status Add(Task task);
 
   // Waits for all tasks; none may be added afterwards. Errors: as above.

@@ -41,7 +41,7 @@ namespace {
 
 constexpr const char* kGroup = "Images";
 
-// Three numbers with commas between them.
+// Three numbers separated by commas.
 template <typename Number>
 CLI::Option* AddTriple(CLI::App& command, const char* name, const char* description,
                        std::function<void(const std::array<Number, 3>&)> use) {
@@ -183,7 +183,7 @@ void AddRaw(CLI::App& command, ImageArguments& arguments) {
       ->needs(size);
 }
 
-// An end of a range; open where nothing is said.
+// An end of a range; `open` if the text is empty.
 absl::StatusOr<double> EndOf(std::string_view text, double open) {
   if (text.empty()) return open;
   double value = 0;

@@ -26,21 +26,21 @@ namespace bccskel::cli {
 // Adds the options for filling a mesh with lattice points.
 void AddGrid(CLI::App& command, VoxelizeOptions& grid);
 
-// How an image becomes an object, as the command line says it.
+// The command line's options for turning an image into an object.
 struct ImageArguments {
   ImageOptions open;
   std::vector<uint64_t> labels;
-  std::string range;  // "LOW,HIGH", an end left out is open
+  std::string range;  // "LOW,HIGH"; a missing end is open
   std::optional<double> threshold;
   std::optional<double> below;
   bool invert = false;
   MaskOptions mask;
-  bool given = false;  // any of these options
+  bool given = false;  // whether any of these options was given
 };
 
-// Images, on the grid of the one that was read, that show its skeleton. Empty: none.
+// Output images of the skeleton, on the grid of the input image. Empty: none.
 struct SkeletonImages {
-  std::string branches;  // the nearest branch of every voxel of the object
+  std::string branches;  // the nearest branch of each voxel of the object
   std::string curves;    // the voxels that curves run through
 
   bool wanted() const { return !branches.empty() || !curves.empty(); }
@@ -51,10 +51,10 @@ void AddMaskOptions(CLI::App& command, ImageArguments& arguments);
 // The same for images of labels.
 void AddLabelOptions(CLI::App& command, ImageArguments& arguments);
 
-// Adds how the voxels of a file lie, in it and in the world.
+// Adds options for the layout of a file's voxels and their placement in the world.
 void AddImageLayout(CLI::App& command, ImageArguments& arguments);
 
-// Adds both, to a command that takes images.
+// Adds all options of commands that take images.
 void AddImage(CLI::App& command, ImageArguments& arguments);
 // The same for a command that takes images of labels.
 void AddLabelImage(CLI::App& command, ImageArguments& arguments);
@@ -64,23 +64,23 @@ void AddSkeletonImages(CLI::App& command, SkeletonImages& images);
 // Errors: INVALID_ARGUMENT, as ForegroundRule's.
 absl::StatusOr<ForegroundRule> ForegroundOf(const ImageArguments& arguments);
 
-// What an image was before it became an object.
+// An image before its conversion to an object.
 struct ImageStage {
   ImageInfo info;
   uint64_t voxels = 0;                // of the foreground
-  BettiNumbers mask;                  // counted on the image's own grid
-  std::vector<std::string> warnings;  // of what is taken for the object
+  BettiNumbers mask;                  // topology, counted on the image's own grid
+  std::vector<std::string> warnings;  // about the selection of the object
 };
 
 struct ImageObject {
   Volume volume;
   ImageStage image;
-  std::optional<LabeledObjects> voxels = std::nullopt;  // of the object, as label 1; if wanted
+  std::optional<LabeledObjects> voxels = std::nullopt;  // of the object, as label 1; if requested
 };
 
 enum class KeptVoxels : uint8_t { kNone, kAll };
 
-// That so many voxels are NaN.
+// The warning that this many voxels are NaN.
 std::string NanWarning(uint64_t voxels);
 
 // Reads an image slice by slice and converts its foreground, which may be empty.
@@ -93,11 +93,11 @@ MaskGrid GridOf(const ImageInfo& info);
 struct CollectedLabels {
   ImageInfo info;
   LabeledObjects objects;
-  uint64_t left_out = 0;     // labels with fewer voxels than wanted
+  uint64_t left_out = 0;     // labels with too few voxels
   uint64_t not_numbers = 0;  // voxels that are NaN
 };
 
-// Gathers the wanted labels of an image that have `min_voxels` or more; there may be none.
+// Collects the requested labels with at least `min_voxels` voxels; there may be none.
 // Errors: as NextSlice(), LabelSlice() and LabelCollector.
 absl::StatusOr<CollectedLabels> CollectLabels(ImageSource& source, const ImageArguments& arguments,
                                               uint64_t min_voxels, const exec::Context& context);

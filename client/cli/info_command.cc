@@ -30,17 +30,17 @@
 
 namespace bccskel::cli {
 
-// What the voxels of an image hold.
+// The voxel values of an image.
 struct ImageValues {
   struct Range {
     long double low;
     long double high;
   };
   VoxelType type = VoxelType::kUint8;
-  std::optional<Range> range;  // none where no value is a number
+  std::optional<Range> range;  // none if no value is a number
   uint64_t not_numbers = 0;
-  // Voxels of each value but 0. None where a value is no whole number from 0 on, and above
-  // kMostLabels values: then these are no labels.
+  // The number of voxels of each nonzero value. None if a value is not a nonnegative whole number,
+  // or beyond kMostLabels values: they are then not labels.
   std::optional<std::map<uint64_t, uint64_t>> labels;
 };
 inline constexpr size_t kMostLabels = 1 << 16;
@@ -90,7 +90,7 @@ class Survey {
     values_.range->low = std::min(values_.range->low, number);
     values_.range->high = std::max(values_.range->high, number);
     if (!are_labels_ || value == T{0}) return;
-    // 2^64 is the first that is too large.
+    // 2^64 is the first value that is too large.
     are_labels_ = number > 0 && number < std::ldexp(1.0L, 64) && std::floor(number) == number &&
                   counts_.size() <= kMostLabels;
     if (are_labels_) counts_[static_cast<uint64_t>(value)] += count;
@@ -113,7 +113,7 @@ absl::StatusOr<ImageValues> Read(const std::string& path, const ImageOptions& op
   return std::move(survey).Take(source->info().type);
 }
 
-// In the shortest form that its own type reads back.
+// In the shortest form from which its own type reads the same value.
 std::string NumberText(long double value, VoxelType type) {
   Text text;
   if (type == VoxelType::kFloat32) {
@@ -128,7 +128,7 @@ std::string NumberText(long double value, VoxelType type) {
   return std::move(text).Take();
 }
 
-// JSON has no infinities.
+// JSON has no infinities: they are strings.
 std::string NumberJson(long double value, VoxelType type) {
   return std::isfinite(value) ? NumberText(value, type) : '"' + NumberText(value, type) + '"';
 }

@@ -47,7 +47,7 @@ absl::StatusOr<std::unique_ptr<DurableClient>> PatientClientOf(const JobArgument
                                                                const std::stop_token& stop) {
   BCCSKEL_ASSIGN_OR_RETURN(const auto client, ClientOf(arguments.server));
   absl::Status found = client->GetJob(arguments.job, ShortCalls(stop)).status();
-  // Ctrl-C is to cancel the job, so it must still be found.
+  // After Ctrl-C the job must still be found, to cancel it.
   if (!found.ok() && stop.stop_requested()) {
     found = client->GetJob(arguments.job, {.timeout = kLastCall}).status();
   }

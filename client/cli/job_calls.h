@@ -11,18 +11,18 @@
 #include "client/durable_client.h"
 #include "core/volume/volume.h"
 
-// What the commands for jobs share.
+// Shared by the commands for jobs.
 
 namespace bccskel::cli {
 
 // Errors: those of EndpointOf() and CheckEndpoint().
 absl::StatusOr<std::unique_ptr<client::DurableClient>> ClientOf(
     const ServerArguments& server, const client::RetryPolicy& policy = {});
-// The same for waiting on a job, once the server has said that it keeps the job.
+// The same for waiting for a job, after the server has confirmed that it keeps the job.
 absl::StatusOr<std::unique_ptr<client::DurableClient>> PatientClientOf(
     const JobArguments& arguments, const std::stop_token& stop);
 
-// Calls that do not wait for a job.
+// Options of calls that do not wait for a job.
 client::DurableClient::Calls ShortCalls(const std::stop_token& stop);
 
 // "2026-11-21T20:20:46Z"
@@ -32,12 +32,12 @@ std::string JobJson(const client::DurableJob& job);
 // "jobs/... succeeded", or the JSON object.
 std::string JobSummary(const CommonArguments& common, const client::DurableJob& job);
 
-// Waits for the job's end. A stop cancels the job unless it is to continue.
-// Errors: those of DurableClient::Watch(); what made the job fail; CANCELLED.
+// Waits for the job's end. A stop request cancels the job unless `waiting` says otherwise.
+// Errors: those of DurableClient::Watch(); the error of a failed job; CANCELLED.
 absl::Status AwaitJob(client::DurableClient& client, const std::string& job,
                       const WaitingArguments& waiting, const std::stop_token& stop);
 
-// Sends the object, makes a job of it that the server keeps, and prints the job's name.
+// Sends the object, creates a durable job for it and prints the job's name.
 ExitCode SubmitDetached(const SkeletonizeArguments& arguments, const Volume& object,
                         const std::stop_token& stop);
 

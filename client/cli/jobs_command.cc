@@ -98,7 +98,7 @@ absl::StatusOr<SkeletonizeResult> Fetch(const FetchArguments& arguments,
   return client->Fetch(arguments.job.job, {.timeout = arguments.waiting.timeout, .stop = stop});
 }
 
-// Empty where none is shown.
+// The object to show; empty if none is given.
 absl::StatusOr<Volume> ObjectOf(const FetchArguments& arguments, const exec::Context& context) {
   if (arguments.object.empty()) return Volume();
   return ReadVolumeFile(arguments.object, {}, context);
@@ -113,7 +113,7 @@ bool IsVolumeFile(const std::string& path) {
   return format.ok() && *format == exporting::SkeletonFormat::kVolume;
 }
 
-// Whether the result has what the files show.
+// Checks that the result has what the files show.
 absl::Status CheckFetched(const FetchArguments& arguments, const Volume& object,
                           const SkeletonizeResult& result) {
   const uint64_t points = object.PointCount();

@@ -48,8 +48,8 @@ class LabelFiles {
     }
   }
 
-  // Keeps what goes into the files of all labels, and has the label's own files written.
-  // Errors: as WriteSkeletonFile(), also of an earlier label.
+  // Collects data for the files of all labels and queues the label's own files.
+  // Errors: as WriteSkeletonFile(), also for an earlier label.
   absl::Status Add(LabelSkeleton&& skeleton) {
     ++labels_;
     if (!paths_of_all_.empty()) all_.Add(skeleton.label, skeleton.voxels, skeleton.result);
@@ -95,10 +95,10 @@ class LabelFiles {
   const exporting::CurveSampling swc_;
   exporting::LabeledSkeletons all_;
   uint64_t labels_ = 0;
-  FileWriters writers_;  // last: their tasks use all else
+  FileWriters writers_;  // last: their tasks use the members above
 };
 
-// What is said of one label.
+// The summary of one label.
 struct LabelFigures {
   uint64_t label = 0;
   uint64_t voxels = 0;
@@ -111,7 +111,7 @@ struct LabelFigures {
   std::string sha256;
 };
 
-// All that `labels` has to say at its end.
+// The summary of the command `labels`.
 struct LabelsSummary {
   const LabelsArguments& arguments;
   const ImageInfo& info;
@@ -135,7 +135,7 @@ struct Totals {
   uint64_t simple_points_left = 0;
   BettiNumbers topology;
   BettiNumbers unprepared;               // of the labels that were prepared
-  std::vector<PreparingStep> preparing;  // each step's sums; none: nothing was prepared
+  std::vector<PreparingStep> preparing;  // sums per step; empty: nothing was prepared
 };
 
 void Add(const BettiNumbers& one, BettiNumbers& sum) {
@@ -144,7 +144,7 @@ void Add(const BettiNumbers& one, BettiNumbers& sum) {
   sum.cavities += one.cavities;
 }
 
-// Every label goes through the same kinds of steps.
+// All labels go through the same kinds of steps.
 void Add(const std::vector<PreparingStep>& one, std::vector<PreparingStep>& sum) {
   for (const PreparingStep& step : one) {
     auto same = std::ranges::find(sum, step.kind, &PreparingStep::kind);
@@ -247,7 +247,7 @@ LabelFigures FiguresOf(const LabelSkeleton& skeleton) {
           .sha256 = result.sha256};
 }
 
-// Text, or one JSON object on one line, as the arguments ask.
+// Text, or one JSON object on one line, as requested.
 std::string LabelsSummaryOf(const LabelsSummary& summary) {
   const bool json = summary.arguments.common.summary == SummaryStyle::kJson;
   return json ? SummaryJson(summary) : SummaryText(summary);

@@ -5,8 +5,8 @@
 
 #include "client/cli/console.h"
 
-// What the functions made by `link_late` call when they are called first. Ends the program where
-// the library is missing, as the dynamic linker would have at the start.
+// Resolves a function of `link_late` at its first call. Ends the program if the library is missing,
+// as the dynamic linker would have done at the start.
 extern "C" __attribute__((used)) void* bccskel_late_function(const char* library,
                                                              const char* name) {
   void* opened = dlopen(library, RTLD_NOW);

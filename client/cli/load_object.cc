@@ -29,10 +29,10 @@
 namespace bccskel::cli {
 namespace {
 
-// A box may be off by this part of its edge, and by two cells, as grids differ.
+// Boxes may differ by this part of their edge and by two cells, because grids differ.
 constexpr double kSlack = 0.1;
 constexpr double kSlackCells = 2;
-// And volumes by this factor.
+// Volumes may differ by this factor.
 constexpr double kMostVolumes = 2;
 
 struct Range {
@@ -41,7 +41,7 @@ struct Range {
 };
 using LatticeBox = std::array<Range, 3>;
 
-// Needs: points.
+// Needs: at least one point.
 LatticeBox BoxOf(const Volume& object) {
   constexpr Range kNone = {2.0 * kMaxExtentCells, -1};
   LatticeBox box = {kNone, kNone, kNone};
@@ -144,7 +144,7 @@ absl::Status NoSuchLabel(const std::string& path, const ImageArguments& argument
 
 namespace {
 
-// The options that select the object, as they were given.
+// The options that select the object, as given.
 std::string SelectionOf(const ImageArguments& arguments) {
   std::string words;
   if (!arguments.labels.empty()) words = "--label " + absl::StrJoin(arguments.labels, ",");
@@ -157,14 +157,14 @@ std::string SelectionOf(const ImageArguments& arguments) {
   return words;
 }
 
-// Why no voxel is object; reads the image again.
+// The reason why no voxel belongs to the object; reads the image again.
 absl::StatusOr<std::string> WhyEmpty(const std::string& path, const ImageArguments& arguments) {
   BCCSKEL_ASSIGN_OR_RETURN(const auto source, OpenImage(path, arguments.open));
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (int32_t z = 0; z < source->info().size.nz; ++z) {
     BCCSKEL_ASSIGN_OR_RETURN(const ImageSlice slice, source->NextSlice());
     const auto add = [&](const auto value) {
-      low = std::min(low, static_cast<double>(value));  // neither takes NaN
+      low = std::min(low, static_cast<double>(value));  // both ignore NaN
       high = std::max(high, static_cast<double>(value));
     };
     std::visit([&](const auto values) { std::ranges::for_each(values, add); }, slice.values);
@@ -258,7 +258,7 @@ absl::StatusOr<VoxelizeResult> VoxelizeFile(const std::string& path, const Voxel
 }
 
 std::string_view FileName(std::string_view path) {
-  while (path.size() > 1 && path.ends_with('/')) path.remove_suffix(1);  // of a folder
+  while (path.size() > 1 && path.ends_with('/')) path.remove_suffix(1);  // from a folder's name
   return path.substr(path.rfind('/') + 1);
 }
 
@@ -277,8 +277,8 @@ absl::StatusOr<Volume> LoadObject(const std::string& path, const VoxelizeOptions
 
 namespace {
 
-// Whether a mesh is to be filled on the grid of the result: unless another is asked for, or it was
-// none of a mesh.
+// Whether to fill the mesh on the result's grid: not if the arguments give another grid or the
+// result is not of a mesh.
 bool TakesGridOf(const view::ResultDocument& result, const ResultArguments& arguments) {
   const VoxelizeOptions& grid = arguments.grid;
   if (grid.points.has_value() || grid.spacing.has_value()) return false;
@@ -303,7 +303,7 @@ absl::StatusOr<Volume> FillOnGridOf(const view::ResultDocument& result,
   return LoadObject(arguments.object, grid, arguments.image, context);
 }
 
-// The object as it was thinned.
+// The object after preparation, as it was thinned.
 absl::StatusOr<Volume> LoadPrepared(const ResultArguments& arguments,
                                     const view::ResultDocument& result,
                                     const exec::Context& context) {

@@ -17,54 +17,55 @@
 
 namespace bccskel::cli {
 
-// Whether a result can be that of an object, in this or another grid: its balls lie in the object's
-// box, and the object that it was made from has about the same volume.
+// Whether the result can belong to the object, on the same or another grid: its balls lie in the
+// object's box, and both objects have about the same volume.
 // Errors: INVALID_ARGUMENT with what does not match.
 absl::Status CheckObjectFits(const view::ResultDocument& result, const Volume& object);
 
-// The object of a file.
-// Errors: as OpenImage() and ConvertImage(), and labels of no voxel; every message names the path.
+// Reads a file as an object.
+// Errors: as OpenImage() and ConvertImage(); no voxel with a requested label. Every message names
+//         the path.
 absl::StatusOr<ImageObject> ConvertImageFile(const std::string& path,
                                              const ImageArguments& arguments, KeptVoxels kept,
                                              const exec::Context& context);
 
-// That no voxel has a wanted label, and which labels the image has. Errors: that.
+// The error that no voxel has a requested label, with the labels of the image.
 absl::Status NoSuchLabel(const std::string& path, const ImageArguments& arguments);
 
-// What the image says of its world.
+// The axes and the unit that the image states.
 exporting::World WorldOf(const ImageInfo& info);
 
-// OK where the object has the topology of the mask that it was made from. A sampling may change
-// it, which is only said on standard error; the exact conversion may not.
-// Errors: INTERNAL, with what changed.
+// Checks that the object has the topology of its mask. A sampling may change it, which causes only
+// a warning on standard error; the exact conversion may not.
+// Errors: INTERNAL with the difference.
 absl::Status CheckConversion(const std::string& path, const ImageArguments& arguments,
                              const BettiNumbers& mask, const BettiNumbers& object);
 
 enum class InputKind { kMesh, kVolume, kImage };
 
-// What a file is by its name. Errors: INVALID_ARGUMENT for other endings.
+// The kind of file by its ending. Errors: INVALID_ARGUMENT for other endings.
 absl::StatusOr<InputKind> InputKindOf(const std::string& path);
-// The same, but an image whatever its name where the arguments tell how its raw voxels lie.
+// The same, but an image regardless of its ending if `image` states the layout of raw voxels.
 absl::StatusOr<InputKind> InputKindOf(const std::string& path, const ImageArguments& image);
 
 // "a mesh", "a volume" or "an image".
 std::string_view InputKindPhrase(InputKind kind);
 
-// The same error with the path in front, unless it is in there.
+// The same error with the path before its message, unless the message contains it.
 absl::Status WithPath(const absl::Status& error, const std::string& path);
 
-// The points of a solid when neither their number nor the spacing is given.
+// The default number of points if neither points nor spacing are given.
 inline constexpr uint64_t kDefaultPoints = 850'000;
 
-// Reads a mesh and fills it. Without points or spacing, kDefaultPoints.
+// Reads a mesh and fills it; by default with kDefaultPoints.
 // Errors: as ReadMeshFile() and Voxelize(); every message names the path.
 absl::StatusOr<VoxelizeResult> VoxelizeFile(const std::string& path, const VoxelizeOptions& grid,
                                             const exec::Context& context);
 
-// The last part of a path: what titles and summaries call a file.
+// The last part of a path, for titles and summaries.
 std::string_view FileName(std::string_view path);
 
-// A volume as it is, a mesh filled, an image converted.
+// Reads a volume, fills a mesh or converts an image.
 // Errors: those of ReadVolumeFile(), VoxelizeFile() and ConvertImageFile(), with the path.
 absl::StatusOr<Volume> LoadObject(const std::string& path, const VoxelizeOptions& grid,
                                   const ImageArguments& image, const exec::Context& context);
@@ -75,13 +76,14 @@ struct ResultAndObject {
   Volume object;
 };
 
-// Says why nothing was computed, and where that was. Returns the exit code.
+// Reports why and where computing failed. Returns the exit code.
 ExitCode FailComputing(const ComputeArguments& arguments, const absl::Status& error);
 
-// Reads both, and makes of the object what the result says was thinned: a mesh is filled on a grid
-// of its spacing, unless the arguments ask for another, and all is prepared again. Warns when the
-// object then has not the number of points that the result speaks of. Errors: those of
-// ReadResultDocument(), LoadObject(), Prepare() and CheckObjectFits(), with the path.
+// Reads both and reproduces the object that was thinned: fills a mesh on a grid of the result's
+// spacing, unless the arguments give another, and repeats the preparation. Warns if the number of
+// points differs from the result's.
+// Errors: those of ReadResultDocument(), LoadObject(), Prepare() and CheckObjectFits(), with the
+//         path.
 absl::StatusOr<ResultAndObject> LoadResultAndObject(const ResultArguments& arguments,
                                                     const exec::Context& context);
 

@@ -18,7 +18,7 @@ namespace {
 using bccskel::cli::Arguments;
 using bccskel::cli::ExitCode;
 
-// Libraries throw where memory runs out; that is the one exception that our code can meet.
+// Libraries throw when memory runs out, the only exception that our code can meet.
 ExitCode RunCommand(const Arguments& arguments, const std::stop_token& stop) {
   const absl::Status writable = bccskel::cli::CheckOutputs(arguments);
   if (!writable.ok()) return bccskel::cli::FailWith(ExitCode::kOutput, writable);
@@ -36,22 +36,22 @@ ExitCode RunCommand(const Arguments& arguments, const std::stop_token& stop) {
   }
 }
 
-// Debian's build of gRPC's locks looks for deadlocks at every one of them.
+// Debian's build of Abseil looks for deadlocks at every lock.
 void TakeLocksAsTheyCome() { absl::SetMutexDeadlockDetectionMode(absl::OnDeadlockCycle::kIgnore); }
 
-// What a stage gives back is there for the next: left alone, the allocator returns large blocks to
-// the system, which clears their pages anew.
+// Keeps memory that one stage frees for the next. By default the allocator returns large blocks to
+// the system, which clears their pages again.
 void KeepFreeMemory() {
   constexpr int kMostInHeap = 32 << 20;  // the largest that it takes
   mallopt(M_MMAP_THRESHOLD, kMostInHeap);
   mallopt(M_TRIM_THRESHOLD, 2 * kMostInHeap);
 }
 
-// Most that a run on a mask touches is small blocks and tables, page after page.
+// Because a run on a mask mostly touches small blocks and tables, page after page.
 void PutHeapOnHugePages() {
   constexpr int kRoom = 48 << 20;
   mallopt(M_TOP_PAD, kRoom);
-  void* volatile block = std::malloc(size_t{1} << 20);  // with the room
+  void* volatile block = std::malloc(size_t{1} << 20);  // with the padding
   std::free(block);
   const auto* const end = static_cast<char*>(sbrk(0));
   bccskel::exec::PreferHugePages(const_cast<char*>(end) - kRoom, kRoom);
@@ -62,7 +62,7 @@ ExitCode Main(int argc, char** argv) {
   KeepFreeMemory();
   const auto parsed = bccskel::cli::ParseArguments(argc, argv);
   if (const auto* code = std::get_if<ExitCode>(&parsed)) return *code;
-  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error of Print()
+  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe becomes an error of Print()
   PutHeapOnHugePages();
   const bccskel::cli::Interrupt interrupt;
   const ExitCode code = RunCommand(std::get<Arguments>(parsed), interrupt.token());

@@ -20,7 +20,7 @@ namespace {
 
 bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 
-// Takes the digits in front of the text and appends them to `digits`.
+// Moves the digits at the front of the text to the end of `digits`.
 void TakeDigits(std::string_view& text, std::string& digits) {
   const auto end = std::ranges::find_if_not(text, IsDigit);
   const auto count = static_cast<size_t>(end - text.begin());
@@ -28,7 +28,7 @@ void TakeDigits(std::string_view& text, std::string& digits) {
   text.remove_prefix(count);
 }
 
-// Takes "k", "M", "G" or "e6": how many zeros it stands for.
+// Parses "k", "M", "G" or "e6" as a number of zeros.
 std::optional<int> TakeZeros(std::string_view& text) {
   if (text.empty()) return 0;
   const char letter = text.front();
@@ -135,7 +135,7 @@ absl::Status Wrong(std::string_view message) {
   return absl::InvalidArgumentError(WithOptionNames(message));
 }
 
-// An App without --help, which points into what it fills: neither moves.
+// An App without --help and the arguments that it fills: it points to them, so neither may move.
 template <typename Arguments>
 struct Reader {
   CLI::App app;
@@ -149,7 +149,7 @@ struct Reader {
       if (app.get_option_no_throw(FlagOf(name)) == nullptr) return absl::NotFoundError(name);
       words.push_back(value.has_value() ? FlagOf(name) + "=" + *value : FlagOf(name));
     }
-    std::ranges::reverse(words);  // the order that CLI11 takes a vector in
+    std::ranges::reverse(words);  // CLI11 takes the words of a vector in reverse order
     try {
       app.parse(std::move(words));
     } catch (const CLI::ParseError& error) {

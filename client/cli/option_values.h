@@ -26,8 +26,8 @@ inline std::string OneOf(const std::vector<std::string>& words) {
   return text;
 }
 
-// An option with a few words as its values. CLI11's own message about another word shows the
-// numbers of the enumeration.
+// An option whose value is one of a few words. CLI11's own error for another word shows the numbers
+// of the enumeration.
 template <typename Enum>
 CLI::Option* AddChoice(CLI::App& command, const std::string& name, std::function<void(Enum)> use,
                        const char* description,
@@ -59,25 +59,25 @@ auto Choices(const Table& table) {
   return std::vector<std::pair<std::string, Enum>>(table.begin(), table.end());
 }
 
-// Checks for a number from `low` to `high`. CLI::Range() takes NaN for one.
+// Checks for a number from `low` to `high`. CLI::Range() accepts NaN.
 CLI::Validator Within(double low, double high);
 
 // Checks for a finite number above 0.
 CLI::Validator Positive();
 
-// What is wrong with a bound of values: a whole number that a double does not hold exactly would
-// let others in or keep itself out. Empty: nothing; other texts are for the parser.
+// The error of a bound that is a whole number which no double represents exactly: rounding would
+// change which values it admits. Empty: no such error; the parser checks other texts.
 std::string WhyInexact(const std::string& text);
-// Checks that nothing is.
+// Checks that WhyInexact() is empty.
 CLI::Validator Exact();
 
-// What CLI11 says of a wrong value, with the value and what is wanted.
+// Rewords CLI11's error for a wrong value: the value and what is allowed.
 std::string InWords(const std::string& error);
 
-// A whole number from 0 on: 850000, 850k, 1.5M, 2G, 1e6; nothing for another text.
+// A nonnegative whole number: 850000, 850k, 1.5M, 2G, 1e6; nullopt for other texts.
 std::optional<uint64_t> ParseCount(std::string_view text);
 
-// One from `low` to `high`. CLI11 would take -3 for a huge one, and 010 for 8.
+// The same, from `low` to `high`. CLI11 would read -3 as a huge number and 010 as 8.
 template <std::unsigned_integral Number>
 Number ReadCount(const std::string& name, const std::string& given, Number low = 0,
                  Number high = std::numeric_limits<Number>::max()) {
@@ -102,27 +102,26 @@ CLI::Option* AddCount(CLI::App& command, const std::string& name, Number& value,
       command, name, [&value](Number count) { value = count; }, description);
 }
 
-// An option of the command line as another language names and gives it: {"pruning_threshold", "1"}.
+// An option of the command line as another language names it: {"pruning_threshold", "1"}.
 struct NamedOption {
   std::string name;
-  std::optional<std::string> value;  // none: a flag that is set
+  std::optional<std::string> value;  // nullopt: a flag that is set
 };
 
 enum class OptionSet { kMask, kMesh, kLabels, kFile };
 
-// A message with the names of options as they are here: "--fill-cavities helps" becomes
-// "fill_cavities helps".
+// A message with the options named as here: "--fill-cavities helps" becomes "fill_cavities helps".
 std::string WithOptionNames(std::string_view message);
 
-// The names that a set has, in the order of --help.
+// The names of the set's options, in the order of --help.
 std::vector<std::string> OptionNames(OptionSet set);
-// Whether an option is a flag. Needs: a name of the set.
+// Whether an option is a flag. Needs: a name in the set.
 bool IsFlag(OptionSet set, const std::string& name);
 
-// What `skeletonize` makes of the options for a mask, a mesh or how a file is read: no input, no
+// The arguments of `skeletonize` for a mask, a mesh or a file with these options, without input and
 // outputs.
 // Errors: INVALID_ARGUMENT for values that are wrong or contradict each other; messages use the
-//         names given here. NOT_FOUND for a name that the set does not contain.
+//         names given here. NOT_FOUND for a name that is not in the set.
 absl::StatusOr<SkeletonizeArguments> ReadNamedOptions(OptionSet set,
                                                       const std::vector<NamedOption>& options);
 // The same for `labels`.

@@ -30,7 +30,7 @@
 
 namespace bccskel::cli {
 
-// Keeps the points that go with each shell while a job runs, here or on a server.
+// Collects the points removed with each shell while a job runs, here or on a server.
 class ShellCollector {
  public:
   // `object` must outlive the collector.
@@ -63,12 +63,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// The object to thin, and the mesh or image that it was made from if there was one.
+// The object to thin and the mesh or image that it was made from, if any.
 struct Object {
   Volume volume;
   std::optional<MeshStage> mesh = std::nullopt;
   std::optional<ImageStage> image = std::nullopt;
-  std::optional<LabeledObjects> voxels = std::nullopt;  // where images are wanted
+  std::optional<LabeledObjects> voxels = std::nullopt;  // if images are requested
 };
 
 absl::StatusOr<Object> FromMesh(const SkeletonizeArguments& arguments,
@@ -119,11 +119,11 @@ bool Wants(const SkeletonizeArguments& arguments, exporting::SkeletonFormat want
   });
 }
 
-// What hears of a running job.
+// Listeners of a running job.
 struct Listeners {
   Listeners(const SkeletonizeArguments& arguments, const Volume& object) : bar(arguments.progress) {
-    // Where thinning stops early, what is left is no skeleton, and the shells do not tell it. Those
-    // of a prepared object are not the object's.
+    // If thinning stops early, the rest is not a skeleton, and the shells do not contain it. Shells
+    // of a prepared object do not fit the original.
     const bool whole =
         arguments.skeletonize.thinning.last_shell == 0 && !arguments.skeletonize.preparing.Wanted();
     if (whole && Wants(arguments, exporting::SkeletonFormat::kHtml)) shells.emplace(object);
@@ -189,7 +189,7 @@ absl::StatusOr<Computed> Compute(const SkeletonizeArguments& arguments, Volume& 
   return computed;
 }
 
-// Takes the image's own topology into the certificate.
+// Adds the image's own topology to the certificate.
 absl::Status CertifyImage(const SkeletonizeArguments& arguments, const Object& object,
                           Certificate& certificate) {
   if (!object.image.has_value()) return absl::OkStatus();
@@ -197,7 +197,7 @@ absl::Status CertifyImage(const SkeletonizeArguments& arguments, const Object& o
   return CheckConversion(arguments.input, arguments.image, object.image->mask, certificate.Given());
 }
 
-// Nodes are known only now.
+// Called after thinning, because the nodes must be known.
 absl::Status CheckRoot(const SkeletonizeArguments& arguments, const SkeletonGraph& graph) {
   if (!arguments.root.has_value()) return absl::OkStatus();
   const std::string outside = RootWarning(*arguments.root, graph);
@@ -259,7 +259,7 @@ absl::Status WriteImages(const SkeletonizeArguments& arguments, const Object& ob
   return write(images.curves, curves, "the voxels of each branch: its index in the graph + 1");
 }
 
-// The one invalid argument of writing is an object with coordinates that no format can hold.
+// The only INVALID_ARGUMENT of writing is an object with coordinates that no format can hold.
 ExitCode FailWriting(const SkeletonizeArguments& arguments, const absl::Status& error) {
   if (!absl::IsInvalidArgument(error)) return FailWith(ExitCode::kOutput, error);
   return Fail(absl::InvalidArgumentError(arguments.input + ": " + std::string(error.message())));
@@ -270,7 +270,7 @@ ExitCode PrintSummary(const SkeletonSummary& summary) {
   return Print(json ? SkeletonSummaryJson(summary) : SkeletonSummaryText(summary));
 }
 
-// The surface of an image's object goes in steps of a voxel.
+// Takes into account that an image's object has a surface in steps of a voxel.
 SkeletonizeArguments ForInput(SkeletonizeArguments arguments, const Object& object) {
   if (object.image.has_value()) {
     const MaskGrid grid = GridOf(object.image->info);

@@ -23,15 +23,15 @@ std::string JsonStrings(const std::vector<std::string>& texts);  // an array
 // "2,775 vertices, 5,558 triangles, watertight, genus 3".
 std::string MeshPhrase(const MeshReport& report);
 
-// Everything that is known about a mesh, a line each; and the same as a JSON object.
+// The facts about a mesh, one per line; and the same as a JSON object.
 std::string MeshText(const MeshReport& report);
 std::string MeshJson(const MeshReport& report);
 
 // "parity" or "winding".
 std::string FillRuleName(FillRule rule);
 
-// Everything that is known about a volume, a line each; and the same as a JSON object. Betti
-// numbers where they have been counted.
+// The facts about a volume, one per line; and the same as a JSON object. Includes the Betti numbers
+// if given.
 std::string VolumeText(const Volume& volume, const std::optional<BettiNumbers>& betti);
 std::string VolumeJson(const Volume& volume, const std::optional<BettiNumbers>& betti);
 
@@ -41,8 +41,8 @@ std::string PlacementJson(const Placement& placement);
 // "NIfTI-1, 101 x 101 x 41 uint8, 50,899 voxels".
 std::string ImagePhrase(const ImageStage& image);
 
-// Everything that is known about an image and its foreground, a line each; and the same as a JSON
-// object, with more members where there are some.
+// The facts about an image and its foreground, one per line; and the same as a JSON object, with
+// additional `members`.
 std::string ImageText(const ImageStage& image);
 std::string ImageJson(const ImageStage& image, const std::string& members = "");
 
@@ -51,14 +51,14 @@ struct WrittenFile {
   std::string note;  // what its format could not hold; may be empty
 };
 
-// A line each; and the same as a JSON array.
+// One line per file; and the same as a JSON array.
 std::string FilesText(const std::vector<WrittenFile>& files);
 std::string FilesJson(const std::vector<WrittenFile>& files);
 
-// The beginning of a JSON object: the files of a result and what is made of it.
+// The beginning of a JSON object: the paths of the result, the object and the output.
 std::string FilesJson(const ResultArguments& arguments);
 
-// What became of a mesh before thinning; and the same as members of a JSON object.
+// How a mesh was filled; and the same as members of a JSON object.
 struct MeshStage {
   MeshReport mesh;
   FillRule fill = FillRule::kParity;
@@ -66,7 +66,7 @@ struct MeshStage {
 };
 std::string MeshStageJson(const MeshStage& stage);
 
-// All that `skeletonize` and `submit` have to say at their end.
+// What `skeletonize` and `submit` report at their end.
 struct SkeletonSummary {
   const SkeletonizeArguments& arguments;
   const Volume& object;
@@ -74,7 +74,7 @@ struct SkeletonSummary {
   std::optional<MeshStage> mesh;
   std::optional<ImageStage> image;
   std::vector<WrittenFile> files;
-  double seconds = 0;  // from start to end, as the user waited
+  double seconds = 0;  // wall time of the command
 };
 
 // "denoised in 2 passes +3 -40, 5 cavities filled +60": with points added and removed.

@@ -16,8 +16,8 @@
 namespace bccskel::cli {
 namespace {
 
-// CLI11 takes the options in the order in which they were added: what is given by itself comes
-// later and stays.
+// CLI11 applies options in the order in which they were added: single options come after the preset
+// and override it.
 void AddPreset(CLI::App& command, SkeletonizeOptions& options) {
   std::vector<std::string> names;
   std::string text = "Options for a kind of data; explicit options override them:";
@@ -77,7 +77,7 @@ void AddPruning(CLI::App& command, PruningOptions& pruning) {
           "Significance: how far a branch sticks out, in half-widths of the object beside it "
           "(default 0.45); length: world units; relative-length: radii of the junction "
           "(default 1); persistence: thinning passes (default 6)")
-      ->check(Positive())  // 0 would stand for the default
+      ->check(Positive())  // 0 would mean the default
       ->option_text("X");
   AddChoice<TipPlacement>(
       command, "--tips", pruning.tips,
@@ -199,7 +199,7 @@ void AddMinVoxels(CLI::App& command, uint64_t& min_voxels) {
 
 namespace {
 
-// Options of pruning that would do nothing.
+// Rejects options of pruning that would have no effect.
 absl::Status CheckPruning(const SkeletonizeOptions& options) {
   const PruningOptions& pruning = options.pruning;
   if (pruning.rule == PruningRule::kNone && pruning.threshold != 0) {

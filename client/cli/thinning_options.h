@@ -16,12 +16,12 @@ class App;
 
 namespace bccskel::cli {
 
-// Adds the options that say what is done to an object before, how it is thinned, what is pruned and
-// where its trees begin; and the presets of them, which single options overrule.
+// Adds the options for preparing an object, thinning, pruning and the roots of trees; and their
+// presets, which single options override.
 void AddSkeletonOptions(CLI::App& command, SkeletonizeOptions& options,
                         std::optional<RootChoice>& root);
 
-// Adds --root: where trees begin, and with it that they are ordered.
+// Adds --root: where trees begin. It also requests their order.
 void AddRoot(CLI::App& command, std::optional<RootChoice>& root);
 
 // --swc-step.
@@ -30,7 +30,7 @@ void AddSwcStep(CLI::App& command, exporting::CurveSampling& sampling);
 // Adds --min-voxels.
 void AddMinVoxels(CLI::App& command, uint64_t& min_voxels);
 
-// Checks how options fit together. Errors: INVALID_ARGUMENT.
+// Checks that the options are consistent. Errors: INVALID_ARGUMENT.
 absl::Status ValidateOptions(const SkeletonizeOptions& options);
 
 // The same for the root of the skeletons of labels.

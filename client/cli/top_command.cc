@@ -18,7 +18,7 @@
 
 namespace bccskel::cli {
 
-// What a server did per second between two looks.
+// A server's activity per second between two queries.
 struct TopRates {
   double calls = 0;
   double jobs = 0;
@@ -28,7 +28,7 @@ struct TopRates {
 
 TopRates RatesBetween(const client::ServerStatus& before, const client::ServerStatus& after);
 
-// A screen of text, and a line of JSON. Without rates there was only one look.
+// A screen of text, and a line of JSON. Without rates there was only one query.
 std::string TopText(const std::string& address, const client::ServerStatus& status,
                     const std::optional<TopRates>& rates);
 std::string TopJson(const client::ServerStatus& status, const std::optional<TopRates>& rates);
@@ -43,12 +43,12 @@ double InSeconds(std::chrono::nanoseconds time) {
 
 double Mebibytes(uint64_t bytes) { return static_cast<double>(bytes) / (1 << 20); }
 
-// A server that was started anew counts from zero.
+// A restarted server counts from zero.
 double Rate(uint64_t before, uint64_t after, double seconds) {
   return after < before || seconds <= 0 ? 0 : static_cast<double>(after - before) / seconds;
 }
 
-// The full width is `whole`.
+// The full width stands for `whole`.
 std::string Bar(double part, double whole) {
   constexpr int kWidth = 30;
   const double share = whole > 0 ? std::min(part / whole, 1.0) : 0;
@@ -160,7 +160,7 @@ absl::StatusOr<std::unique_ptr<client::Operations>> Open(const TopArguments& arg
 ExitCode Show(const TopArguments& arguments, const client::ServerStatus& status,
               const std::optional<TopRates>& rates) {
   if (arguments.common.summary == SummaryStyle::kJson) return Print(TopJson(status, rates));
-  // On a terminal each look takes the place of the one before.
+  // On a terminal each screen replaces the last.
   const bool clear = arguments.repeat == TopRepeat::kForever && isatty(STDOUT_FILENO) == 1;
   const std::string screen = clear ? "\x1b[H\x1b[2J" : "";
   return Print(screen + TopText(arguments.server.address, status, rates));

@@ -29,14 +29,14 @@ absl::Status CheckVolumeOutput(const std::string& path) {
   return absl::InvalidArgumentError(path + ": a volume file ends in .exr or .bccb");
 }
 
-// Writing over the input would destroy what cannot be computed again.
+// Overwriting the input would destroy data that cannot be recomputed.
 absl::Status CheckNotInput(const std::string& input, const std::string& output) {
   std::error_code none;
   if (!std::filesystem::equivalent(input, output, none)) return absl::OkStatus();
   return absl::InvalidArgumentError(output + ": is the input, too, and would be overwritten");
 }
 
-// Options that say how to make an object are for one kind of input each.
+// Each option about making an object is for one kind of input.
 absl::Status CheckObject(const std::string& input, const VoxelizeOptions& grid,
                          const ImageArguments& image) {
   BCCSKEL_RETURN_IF_ERROR(ForegroundOf(image).status());
@@ -196,7 +196,7 @@ std::vector<std::string> OutputsOf(const Chosen& arguments) {
   return paths;
 }
 
-// Where a path leads, also of a file that is not there yet.
+// The resolved path, also for a file that does not exist yet.
 std::filesystem::path PlaceOf(const std::string& path) {
   std::error_code error;
   std::filesystem::path place =
@@ -240,12 +240,12 @@ absl::Status Validate(const Arguments& arguments) {
 
 namespace {
 
-// The folders that a label's number names are made for it, in one that must be there.
+// The first folder or file to be created for a label; its parent must exist.
 std::string FirstMadeFor(const std::string& path) {
   return path.substr(0, path.find('/', path.find(exporting::kLabelPlace)));
 }
 
-// Of what is written first.
+// The outputs that are written first.
 template <typename Chosen>
 std::vector<std::string> FirstOutputsOf(const Chosen& arguments) {
   std::vector<std::string> paths = OutputsOf(arguments);

@@ -38,7 +38,7 @@ std::string SummaryOf(const ViewArguments& arguments, const view::Peeling& peeli
 struct Scene {
   std::string title;
   view::ResultDocument result;
-  view::Peeling peeling;  // without layers where no object is given
+  view::Peeling peeling;  // without layers if no object is given
 };
 
 absl::StatusOr<Scene> Load(const ResultArguments& source, const exec::Context& context) {

@@ -14,7 +14,7 @@
 namespace bccskel::cli {
 namespace {
 
-// What was said of the input, as text and as members of a JSON object.
+// The facts about the input, as text and as members of a JSON object.
 struct Story {
   std::string text;
   std::string json;

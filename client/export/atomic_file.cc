@@ -37,7 +37,7 @@ class OpenFile {
   bool is_open() const { return descriptor_ >= 0; }
   bool Sync() const { return ::fsync(descriptor_) == 0; }
   bool Write(std::string_view bytes, const std::stop_token& stop) const {
-    constexpr size_t kMostAtOnce = size_t{1} << 22;  // so that a stop is heard
+    constexpr size_t kMostAtOnce = size_t{1} << 22;  // so that a stop takes effect
     while (!bytes.empty() && !stop.stop_requested()) {
       const ssize_t written =
           ::write(descriptor_, bytes.data(), std::min(bytes.size(), kMostAtOnce));
@@ -92,7 +92,7 @@ absl::Status WriteNewFile(const std::string& draft, const std::string& path, std
   return StopStatus(path, stop);
 }
 
-// A link stays, and what it leads to is replaced.
+// Follows links, so that a link stays and its target is replaced.
 std::string BehindLinks(const std::string& path) {
   std::error_code error;
   if (!std::filesystem::is_symlink(path, error)) return path;

@@ -9,14 +9,14 @@
 
 namespace bccskel::exporting {
 
-// Writes a file as a whole or not at all: readers of `path` see the old bytes or the new ones.
-// Something that is not a plain file, such as /dev/null or a pipe, is written to directly.
+// Writes a file atomically: readers of `path` see the old bytes or the new ones. Writes directly to
+// anything that is not a regular file, such as /dev/null or a pipe.
 // Errors: NOT_FOUND, PERMISSION_DENIED, RESOURCE_EXHAUSTED (no space), UNKNOWN; each names the
-// path. CANCELLED once a stop was asked for.
+//         path. CANCELLED after a stop request.
 absl::Status WriteFileAtomically(const std::string& path, std::string_view bytes,
                                  const std::stop_token& stop = {});
 
-// Whether WriteFileAtomically() can begin, without a trace. Errors: as above.
+// Whether WriteFileAtomically() can begin; leaves no trace. Errors: as above.
 absl::Status CheckWritable(const std::string& path);
 
 }  // namespace bccskel::exporting

@@ -8,7 +8,7 @@
 
 namespace bccskel::exporting {
 
-// "branch 7", or "label 3 branch 7" where labels are given; counted from 0.
+// "branch 7", or "label 3 branch 7" if there are labels; counted from 0.
 inline std::string BranchName(const GraphLabels& labels, size_t edge) {
   std::string name = "branch " + std::to_string(edge);
   if (labels.of_edges.empty()) return name;

@@ -22,7 +22,7 @@
 namespace bccskel::exporting {
 namespace {
 
-// Sides of a tube, in a scene of few and of many tubes.
+// Sides of a tube in scenes with few and with many tubes.
 constexpr size_t kSides = 8, kSidesOfMany = 4;
 constexpr size_t kMany = 100'000;
 constexpr int kFloat = 5126, kUint32 = 5125, kUint8 = 5121;  // component types
@@ -37,7 +37,7 @@ float Product(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[
 Vector Cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-// Of length 1; (1, 0, 0) for zero.
+// The unit vector; (1, 0, 0) for the zero vector.
 Vector Direction(const Vector& v) {
   const float length = std::sqrt(Product(v, v));
   return length > 0 ? Scaled(v, 1 / length) : Vector{1, 0, 0};
@@ -52,12 +52,12 @@ void AppendWord(std::string& bytes, uint32_t word) {
 struct Vertex {
   Vector position;
   Vector normal;
-  uint32_t color;  // r, g, b, a from the lowest byte on; linear
+  uint32_t color;  // linear; r, g, b, a from the lowest byte on
 };
 constexpr size_t kVertexBytes = sizeof(Vertex);
 static_assert(kVertexBytes == 28);
 
-// Items that consist of words of 4 bytes.
+// Needs: items made of 4-byte words.
 template <typename Item>
 void AppendItems(std::string& bytes, const std::vector<Item>& items) {
   static_assert(sizeof(Item) % sizeof(uint32_t) == 0);
@@ -74,7 +74,7 @@ void AppendItems(std::string& bytes, const std::vector<Item>& items) {
   }
 }
 
-// A closed surface around a curve: the middle of a cap, rings of vertices, the middle of the other
+// A closed surface around a curve: the center of a cap, rings of vertices, the center of the other
 // cap.
 struct Tube {
   std::vector<Vertex> vertices;
@@ -114,7 +114,7 @@ class TubeMaker {
   TubeMaker(const WorldPoint& center, const SkeletonGraph& graph)
       : center_(center), range_(RadiusRangeOf(graph)), turns_(TurnsOfRing(graph.edges.size())) {}
 
-  // Rings that turn no more than the curve does, and a cap at either end.
+  // Rings that twist no more than the curve, and a cap at each end.
   Tube Around(const std::vector<CurvePoint>& curve) const {
     Tube tube = {{}, turns_.size()};
     tube.vertices.reserve(2 + curve.size() * turns_.size());
@@ -179,7 +179,7 @@ std::vector<uint32_t> CornersOf(const Tube& tube) {
   return corners;
 }
 
-// The two chunks of the file while they grow.
+// Builds the two chunks of the file.
 class Scene {
  public:
   void Add(const Tube& tube) {
@@ -208,7 +208,7 @@ class Scene {
     ++meshes_;
   }
 
-  // The node of the last mesh; node 0 is the root. Its figures are as exact as its vertices.
+  // Adds the node of the last mesh; node 0 is the root. Its figures are as precise as its vertices.
   void AddNode(std::string_view name, const EdgeFigures& figures) {
     const auto rounded = [](double figure) { return static_cast<float>(figure); };
     node_text_.Add(",\n{\"name\":\"", name, "\",\"mesh\":", meshes_ - 1,
@@ -218,13 +218,13 @@ class Scene {
                    ",\"max_radius\":", rounded(figures.max_radius), "}}");
   }
 
-  // Once: it takes the texts that Add() and AddNode() have written.
+  // Called once: moves the texts that Add() and AddNode() have written.
   std::string TakeJson(const WorldPoint& center) {
     Text text;
     text.Add("{\"asset\":{\"version\":\"2.0\",\"generator\":\"bccskel\"},\n\"scene\":0,\"scenes\":",
              "[{\"nodes\":[0]}],\n\"nodes\":[\n{\"name\":\"skeleton\",\"translation\":[", center[0],
              ',', center[2], ',', -center[1],
-             // A quarter turn about x: z goes up.
+             // A quarter turn about x: z points up.
              "],\"rotation\":[-0.7071067811865476,0,0,0.7071067811865476]");
     if (meshes_ > 0) text.Add(",\"children\":[");
     for (size_t n = 1; n <= meshes_; ++n) text.Add(n == 1 ? "" : ",", n);
@@ -239,7 +239,7 @@ class Scene {
  private:
   static constexpr int kVertexView = 0, kCornerView = 1;
 
-  // Returns its number. Its JSON object is left open.
+  // Returns its number and leaves its JSON object open.
   size_t AddAccessor(int view, size_t offset, int type, std::string_view shape, size_t count) {
     accessor_text_.Add(accessors_ == 0 ? "\n" : ",\n", "{\"bufferView\":", view,
                        ",\"byteOffset\":", offset, ",\"componentType\":", type,
@@ -247,7 +247,7 @@ class Scene {
     return accessors_++;
   }
 
-  // Tubes with equally many vertices share it.
+  // Tubes with the same number of vertices share it.
   size_t CornersAccessor(const Tube& tube) {
     const auto [found, is_new] = corner_accessors_.emplace(tube.vertices.size(), accessors_);
     if (!is_new) return found->second;
@@ -278,7 +278,7 @@ class Scene {
   size_t meshes_ = 0;
 };
 
-// Coordinates around it fit a float wherever the world's origin is.
+// Coordinates relative to it fit a float wherever the world's origin is.
 WorldPoint CenterOf(const SkeletonGraph& graph) {
   WorldPoint sum = {0, 0, 0};
   for (const SkeletonNode& node : graph.nodes) {

@@ -9,7 +9,7 @@
 
 namespace bccskel::exporting {
 
-// What is known of a graph beside itself. Each part may be missing.
+// Additional facts about a graph. Each part may be missing.
 struct GraphContext {
   GraphLabels labels = {};
   MethodFacts facts = {};

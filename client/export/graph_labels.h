@@ -6,7 +6,7 @@
 
 namespace bccskel::exporting {
 
-// Which label of an image each row of a graph belongs to. Empty where a graph is of one object.
+// The label of each row of a graph. Empty for a graph of one object.
 struct GraphLabels {
   std::vector<uint64_t> of_nodes;
   std::vector<uint64_t> of_edges;

@@ -55,13 +55,13 @@ void AddData(Text& text, std::string_view key, const Value& value) {
   text.Add("<data key=\"", key, "\">", value, "</data>");
 }
 
-// The label of row n; nothing where the graph is of one object.
+// Adds the label of row n, unless the graph is of one object.
 void AddLabel(Text& text, const std::vector<uint64_t>& labels, size_t n) {
   if (!labels.empty()) AddData(text, "label", labels[n]);
 }
 
-// The keys that the context needs, and the graph's own data. The graph's keys have identifiers of
-// their own, as an option may be called as the data of a node: `cavities`.
+// The keys that the context needs, and the graph's own data. The graph's keys have their own
+// identifiers, because an option may have the name of a node's data: `cavities`.
 void AddContext(Text& text, const GraphContext& context) {
   if (context.order.has_value()) text.Add(kOrderKeys);
   for (const auto& [name, value] : context.facts) {

@@ -66,7 +66,7 @@ void AddNode(Text& text, const SkeletonGraph& graph, const SkeletonNode& node, u
   text.Add('}');
 }
 
-// Many points have the same radius, and digits take long to find.
+// Caches the texts of radii: many points have the same, and formatting digits is slow.
 class RadiusTexts {
  public:
   explicit RadiusTexts(const SkeletonGraph& graph) : graph_(graph) {}
@@ -92,7 +92,7 @@ class RadiusTexts {
   std::array<Known, kKept> known_;
 };
 
-// What is found out once for all edges.
+// Data shared by all edges.
 struct EdgeContext {
   const std::optional<TreeOrder>& order;
   bool has_births;

@@ -28,7 +28,7 @@ void LabeledSkeletons::Add(uint64_t label, uint64_t voxels, const SkeletonizeRes
   const SkeletonGraph& graph = result.graph;
   if (facts_.empty()) {
     facts_ = MethodFactsOf(result, world_);
-    // What preparing did differs from label to label.
+    // The effects of preparation differ from label to label.
     std::erase_if(facts_, [](const auto& fact) { return fact.first == "prepared"; });
   }
   const auto first_node = static_cast<uint32_t>(graph_.nodes.size());

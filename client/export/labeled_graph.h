@@ -15,7 +15,7 @@
 
 namespace bccskel::exporting {
 
-// The skeletons of many labels of one image, on their way into one file.
+// Collects the skeletons of many labels of one image for one file.
 class LabeledSkeletons {
  public:
   explicit LabeledSkeletons(const std::optional<RootChoice>& root = std::nullopt, World world = {})
@@ -26,7 +26,7 @@ class LabeledSkeletons {
 
   // All graphs side by side.
   const SkeletonGraph& graph() const { return graph_; }
-  // Labels, the method of the first, and with a choice of roots the order of their trees.
+  // Labels, the method of the first label, and the order of the trees if roots are chosen.
   GraphContext Context() const;
   // {"labels": [{"label", "voxels", "skeleton"}, ...]}, each skeleton as JsonText() writes it.
   std::string Json() const { return "{\n\"labels\":[" + json_ + "\n]\n}\n"; }
@@ -48,8 +48,8 @@ class LabeledSkeletons {
 // .vtp, .graphml, .json, .csv, .glb, .mrk.json and .precomputed.
 bool HoldsManyLabels(SkeletonFormat format);
 
-// Returns what the format could not hold, a sentence for the user; empty if it held everything.
-// Errors: INVALID_ARGUMENT (a format that does not), and as WriteFileAtomically().
+// Returns what the format could not hold, as a sentence for the user; empty if it held everything.
+// Errors: INVALID_ARGUMENT for a format that holds one label only; as WriteFileAtomically().
 absl::StatusOr<std::string> WriteLabeledFile(const std::string& path,
                                              const LabeledSkeletons& skeletons,
                                              const std::stop_token& stop = {});

@@ -24,7 +24,7 @@ void AddMeasurement(Text& text, std::string_view before, std::string_view name, 
   text.Add('}');
 }
 
-// Markups are RAS or LPS. LAS is RAS with its first axis turned round.
+// Markups are RAS or LPS. LAS is RAS with the first axis reversed.
 bool IsTurned(const World& world) { return world.axes == "LAS"; }
 
 std::string_view SystemOf(const World& world) {
@@ -48,7 +48,7 @@ void AddCurve(Text& text, const SkeletonGraph& graph, size_t n, const GraphConte
   const SkeletonEdge& edge = graph.edges[n];
   const bool closed = graph.nodes[edge.source].kind == NodeKind::kLoop;
   std::vector<CurvePoint> curve = SampledCurve(graph, edge);
-  if (closed && !curve.empty()) curve.pop_back();  // is the first
+  if (closed && !curve.empty()) curve.pop_back();  // equals the first
   const EdgeFigures figures = FiguresOf(graph, edge);
   text.Add("{\"type\":\"", closed ? "ClosedCurve" : "Curve", "\",\"coordinateSystem\":\"",
            SystemOf(world), '"');

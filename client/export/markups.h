@@ -11,16 +11,16 @@ namespace bccskel::exporting {
 
 struct MarkupsDocument {
   std::string text;
-  // What the format cannot show, a sentence for the user; empty if nothing.
+  // What the format cannot show, as a sentence for the user; empty if nothing.
   std::string note;
 };
 
-// What WriteMarkups() says of a world that it does not know; empty for one that it does.
+// The note of WriteMarkups() about a world with unknown axes; empty for RAS and LPS.
 std::string NoteOn(const World& world);
 
-// 3D Slicer's markups, schema 1.0.3: an open or closed curve per edge, named "branch N" or, where
-// labels are given, "label L branch N"; its length and radii are measurements. Coordinates are
-// RAS or LPS, as the world is; one that is neither is taken for LPS, which the note says.
+// 3D Slicer's markups, schema 1.0.3: an open or closed curve per edge, named "branch N" or, with
+// labels, "label L branch N", with its length and radii as measurements. Coordinates are RAS or
+// LPS, as in `world`; any other is taken as LPS, which the note states.
 MarkupsDocument WriteMarkups(const SkeletonGraph& graph, const GraphContext& context,
                              const World& world);
 

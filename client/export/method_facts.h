@@ -12,19 +12,19 @@
 
 namespace bccskel::exporting {
 
-// How a result was made: names and values for formats that hold no structure. The first is `method`
-// in words, the second `algorithm_version`, then come `world` and `unit`, "unknown" where the input
-// does not tell, and the options; `prepared` has what preparing did. Plain text, no quotes.
+// How a result was made: names and values for formats without structure. First `method` in words,
+// then `algorithm_version`, then `world` and `unit`, "unknown" if the input does not state them,
+// then the options; `prepared` lists what preparation did. Plain text without quotes.
 using MethodFacts = std::vector<std::pair<std::string, std::string>>;
 MethodFacts MethodFactsOf(const SkeletonizeResult& result, const World& world = {});
-// Of a result that was read again.
+// For a result read from a file.
 MethodFacts MethodFactsOf(const view::ResultGraph& result);
 
-// The same as JSON values: an object of the options, and a list of the steps of preparing.
+// As JSON values: an object of the options, and a list of the steps of preparation.
 std::string OptionsJson(const SkeletonizeOptions& options);
 std::string PreparingJson(const std::vector<PreparingStep>& steps);
 
-// An object of three numbers, and one of those of mask, object and skeleton.
+// An object of three numbers, and an object with those of mask, object and skeleton.
 std::string BettiJson(const BettiNumbers& betti);
 std::string CertificateJson(const Certificate& certificate);
 

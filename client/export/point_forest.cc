@@ -34,13 +34,13 @@ class Planting {
 
  private:
   enum class Side : uint8_t { kSource, kTarget };
-  // An edge, seen from its node on this side.
+  // An edge as seen from one of its nodes.
   struct Start {
     uint32_t edge;
     Side side;
   };
 
-  // Each branch to its end before the next one begins.
+  // Follows each branch to its end before the next one.
   void Grow(uint32_t root) {
     std::vector<Start> open;
     const auto open_at = [&](uint32_t node) {
@@ -57,7 +57,7 @@ class Planting {
     }
   }
 
-  // Whether the edge is to be drawn from this node on. One that closes a loop is from both.
+  // Whether to draw the edge from this node. One that closes a loop is drawn from both.
   bool Leaves(const Start& start, uint32_t node) const {
     const EdgeOrder& order = order_.edges[start.edge];
     return order.ClosesLoop() || order.proximal == node;
@@ -86,7 +86,7 @@ class Planting {
     return other;
   }
 
-  // How many inner points of an edge that closes a loop go to its source.
+  // The number of inner points that belong to the source's side of an edge that closes a loop.
   size_t StepsOfSource(const SkeletonEdge& edge, const std::vector<CurvePoint>& curve) const {
     const std::vector<double> ways = WaysAlong(curve);
     const double from_source = order_.nodes[edge.source].root_distance;
@@ -100,7 +100,7 @@ class Planting {
     places_[node] = forest_.points.size();
     const SkeletonNode& of = graph_.nodes[node];
     WorldPoint at = graph_.PositionOf(of.at);
-    // The one kind of node that a smooth curve moves.
+    // The only kind of node that a smooth curve moves.
     if (of.kind == NodeKind::kLoop && !edges_at_[node].empty()) {
       at = SampledCurve(graph_, graph_.edges[edges_at_[node].front().edge], sampling_).front().at;
     }
@@ -110,8 +110,8 @@ class Planting {
   const SkeletonGraph& graph_;
   const TreeOrder& order_;
   const CurveSampling sampling_;
-  std::vector<std::vector<Start>> edges_at_;  // by node; an edge to itself twice
-  std::vector<size_t> places_;                // by node: in the forest
+  std::vector<std::vector<Start>> edges_at_;  // by node; a self-loop twice
+  std::vector<size_t> places_;                // by node: index in the forest
   PointForest forest_;
 };
 

@@ -12,24 +12,24 @@
 
 namespace bccskel::exporting {
 
-// The graph as one tree per component: what formats without loops need. World coordinates and
-// units.
+// The graph as one tree per component, for formats without loops. World coordinates and units.
 struct PointForest {
   struct Point {
     WorldPoint at;
     double radius;
-    std::optional<size_t> parent;  // position in `points`; nothing for a root
-    std::optional<uint32_t> node;  // of the graph; nothing inside an edge
+    std::optional<size_t> parent;  // index into `points`; none for a root
+    std::optional<uint32_t> node;  // of the graph; none inside an edge
   };
-  // A parent comes before its children, and a branch is in one piece. Each node is one point.
+  // Parents precede their children, and the points of a branch are consecutive. Each node is one
+  // point.
   std::vector<Point> points;
   size_t trees = 0;
-  // Loops of the graph that a tree cannot show.
+  // Loops of the graph that had to be cut.
   size_t loops_cut = 0;
 };
 
-// An edge that closes a loop is cut at the step farthest from its root, so no point is lost.
-// Needs: the order is of this graph; a step is not negative.
+// Cuts an edge that closes a loop at the step farthest from its root, so that no point is lost.
+// Needs: `order` belongs to this graph; the step is not negative.
 PointForest PointForestOf(const SkeletonGraph& graph, const TreeOrder& order,
                           const CurveSampling& sampling = {});
 

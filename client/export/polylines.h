@@ -10,13 +10,13 @@ namespace bccskel::exporting {
 
 // A graph as numbered points and polylines over them, the model of VTP and OBJ.
 struct Polylines {
-  // First the nodes, in their order, then the inner points of every edge, then those of sheets.
+  // The nodes in order, then the inner points of every edge, then the points of sheets.
   std::vector<SkeletonPoint> points;
-  // One per edge, in the order of the edges: positions in `points`, at least two.
+  // One per edge, in order: indices into `points`, at least two.
   std::vector<std::vector<size_t>> lines;
-  // Nodes that no edge touches, then all points of sheets: positions in `points`.
+  // Isolated nodes, then all points of sheets: indices into `points`.
   std::vector<size_t> lone_points;
-  size_t first_of_sheets = 0;  // in `points`
+  size_t first_of_sheets = 0;  // index into `points`
 };
 
 Polylines PolylinesOf(const SkeletonGraph& graph);

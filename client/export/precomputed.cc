@@ -32,7 +32,7 @@ std::string InfoText() {
          "\"data_type\":\"float32\",\"num_components\":1}]}\n";
 }
 
-// How many nanometers a unit has; nothing for an unknown one.
+// The number of nanometers in a unit; nullopt for an unknown one.
 std::optional<double> NanometersOf(std::string_view unit) {
   constexpr std::array<std::pair<std::string_view, double>, 11> kUnits = {{
       {"A", 0.1},
@@ -57,7 +57,7 @@ void Append(std::string& bytes, uint32_t word) {
   for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(word >> shift & 0xff);
 }
 
-// One segment on its way into its file.
+// Builds the file of one segment.
 struct Segment {
   std::string positions;
   std::string edges;
@@ -107,7 +107,7 @@ class Composer {
     std::vector<std::vector<CurvePoint>> curves;
     for (const SkeletonEdge& edge : graph_.edges) {
       curves.push_back(SampledCurve(graph_, edge, options_.sampling));
-      // The one kind of node that a smooth curve moves.
+      // The only kind of node that a smooth curve moves.
       const bool moves = graph_.nodes[edge.source].kind == NodeKind::kLoop;
       if (moves) places[edge.source].at = curves.back().front().at;
     }
@@ -170,7 +170,7 @@ std::string WithoutSlashes(std::string path) {
   return path;
 }
 
-// Nobody's volume shall lose its info.
+// Protects the info file of a volume from being overwritten.
 absl::Status CheckInfo(const std::string& info) {
   std::ifstream file(info, std::ios::binary);
   if (!file.is_open()) return absl::OkStatus();

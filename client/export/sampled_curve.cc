@@ -11,9 +11,9 @@ namespace {
 
 using Curve = std::vector<CurvePoint>;
 
-// Bounds what a tiny step may ask for.
+// Limits the number of points for a tiny step.
 constexpr double kMostPerPoint = 1000;
-// Fewer would turn a loop of one edge into a point or a line there and back.
+// Fewer would collapse a loop of one edge to a point or a line.
 constexpr size_t kLeastStepsOfLoop = 4;
 
 CurvePoint Mix(const CurvePoint& a, const CurvePoint& b, double part) {
@@ -22,7 +22,7 @@ CurvePoint Mix(const CurvePoint& a, const CurvePoint& b, double part) {
   return mixed;
 }
 
-// The same curve by `steps` steps of equal length. Needs: at least two points, a step.
+// The same curve in `steps` steps of equal length. Needs: at least two points and one step.
 Curve Resampled(const Curve& curve, size_t steps) {
   const std::vector<double> ways = WaysAlong(curve);
   Curve resampled = {curve.front()};

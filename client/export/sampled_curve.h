@@ -11,8 +11,8 @@ namespace bccskel::exporting {
 
 struct CurveSampling {
   // The distance between points along the smooth curve in world units, rounded so that it divides
-  // each edge; 0: the lattice points themselves, not smoothed; nothing: twice the smallest spacing,
-  // which leaves out the last ripples of the lattice.
+  // each edge. 0: the unsmoothed lattice points. None: twice the smallest spacing, which hides the
+  // last ripples of the lattice.
   std::optional<double> step = std::nullopt;
 };
 
@@ -22,16 +22,16 @@ struct CurvePoint {
   double radius;
 };
 
-// An edge from its source's place to its target's.
+// An edge from its source to its target.
 // Needs: the step is not negative.
 std::vector<CurvePoint> SampledCurve(const SkeletonGraph& graph, const SkeletonEdge& edge,
                                      const CurveSampling& sampling = {});
 
-// The same by the default step, where SmoothCurve() of the edge is known.
+// The same with the default step, for a given SmoothCurve() of the edge.
 std::vector<CurvePoint> SampledCurve(const SkeletonGraph& graph, const SkeletonEdge& edge,
                                      std::span<const WorldPoint> smooth);
 
-// The way along the curve to each of its points; 0 for no point.
+// The length along the curve up to each of its points; 0 for an empty curve.
 std::vector<double> WaysAlong(const std::vector<CurvePoint>& curve);
 
 }  // namespace bccskel::exporting

@@ -33,7 +33,7 @@ struct Ending {
   SkeletonFormat format;
 };
 constexpr std::array<Ending, 14> kEndings = {{{".swc", SkeletonFormat::kSwc},
-                                              // in front of .json, which it ends in
+                                              // before .json, in which it ends
                                               {".mrk.json", SkeletonFormat::kMarkups},
                                               {".vtp", SkeletonFormat::kVtp},
                                               {".graphml", SkeletonFormat::kGraphMl},
@@ -48,10 +48,10 @@ constexpr std::array<Ending, 14> kEndings = {{{".swc", SkeletonFormat::kSwc},
                                               {".html", SkeletonFormat::kHtml},
                                               {".precomputed", SkeletonFormat::kPrecomputed}}};
 
-// A billion ways of such a length add up to a finite one.
+// A billion lengths of this size have a finite sum.
 constexpr double kModerate = 1e150;
 
-// The largest size of a number of the point; infinity where one is not finite.
+// The largest absolute value of the point's numbers; infinity if one is not finite.
 double LargestOf(const SkeletonGraph& graph, const SkeletonPoint& point) {
   const WorldPoint p = graph.PositionOf(point);
   double largest = 0;
@@ -109,7 +109,7 @@ absl::StatusOr<std::string> PageText(const Subject& subject) {
   return view::PageOf({subject.title, result, peeling});
 }
 
-// Nothing for a format that needs more than a graph.
+// nullopt for a format that needs more than a graph.
 std::optional<absl::StatusOr<Document>> ComposeGraph(SkeletonFormat format,
                                                      const GraphSubject& subject) {
   const auto& [graph, context, world, sampling] = subject;

@@ -26,17 +26,18 @@ enum class SkeletonFormat {
   kPrecomputed
 };
 
-// The format that a file's ending asks for, in capitals or not; of a folder also with a slash
-// behind. Errors: INVALID_ARGUMENT with the endings there are.
+// The format by the ending of a file, in upper or lower case; a folder's may be followed by a
+// slash.
+// Errors: INVALID_ARGUMENT with the known endings.
 absl::StatusOr<SkeletonFormat> SkeletonFormatOf(const std::string& path);
 
-// Whether files of this format show the object, too.
+// Whether files of this format also show the object.
 bool ShowsObject(SkeletonFormat format);
 
 // The endings, for messages: ".swc, .vtp, ...".
 std::string SkeletonFormatEndings();
 
-// A graph and what is known of it: what all formats but pictures, JSON and volumes are made from.
+// A graph and the facts about it: the input of all formats except pictures, JSON and volumes.
 struct GraphSubject {
   const SkeletonGraph& graph;
   GraphContext context = {};
@@ -47,20 +48,20 @@ struct GraphSubject {
 // Whether WriteGraphFile() can write a file of this name.
 bool HoldsGraph(const std::string& path);
 
-// Whether WriteSkeletonFile() can begin to write there, without a trace. Any ending is taken.
+// Whether WriteSkeletonFile() can begin to write there; leaves no trace. Accepts any ending.
 // Errors: those of CheckWritable() and CheckPrecomputedFolder().
 absl::Status CheckOutput(const std::string& path);
 
-// Writes one file, or for kPrecomputed a folder of them; either all of it appears or nothing. Equal
-// subjects give equal bytes. Returns what the format could not hold, a sentence for the user; empty
-// if it held everything.
+// Writes one file, or for kPrecomputed a folder of files, completely or not at all. Equal subjects
+// give equal bytes. Returns what the format could not hold, as a sentence for the user; empty if it
+// held everything.
 // Needs:  for kVolume (.exr, .bccb), a result with its thin volume.
-// Errors: INVALID_ARGUMENT (ending; coordinates too large for a double), UNIMPLEMENTED for kPng
-//         without the subject's `draw`, those of WriteFileAtomically(), for kHtml and kPng those of
+// Errors: INVALID_ARGUMENT (ending; coordinates too large for a double); UNIMPLEMENTED for kPng
+//         without the subject's `draw`; those of WriteFileAtomically(); for kHtml and kPng those of
 //         the subject's context.
 absl::StatusOr<std::string> WriteSkeletonFile(const std::string& path, const Subject& subject);
 
-// The same bytes of a graph alone.
+// The same for a graph alone.
 // Errors: as above; INVALID_ARGUMENT for formats that need the object or the whole result.
 absl::StatusOr<std::string> WriteGraphFile(const std::string& path, const GraphSubject& subject,
                                            const std::stop_token& stop);

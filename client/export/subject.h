@@ -21,20 +21,20 @@ struct Subject;
 // Makes a PNG file of a subject.
 using Drawing = absl::StatusOr<std::string> (*)(const Subject&);
 
-// A skeleton and what it is the skeleton of: what the formats are made from. Whoever holds one
-// keeps the two values alive.
+// A skeleton and its object: the input of the formats. Whoever holds one keeps the two values
+// alive.
 struct Subject {
   const SkeletonizeResult& result;
   const Volume& object;
   std::string title;           // of pictures; plain text
-  exec::Context context = {};  // for the surfaces of pages and pictures, which take a while
-  // How the object was peeled, for a page; where nothing is known, by the distance to its boundary.
+  exec::Context context = {};  // for the surfaces of pages and pictures, which take time
+  // The shells of the thinning, for a page; null: shells by the distance to the boundary.
   const view::PeeledShells* shells = nullptr;
-  // Where the trees begin, if they are to be ordered. Needs: CheckRootChoice() is OK.
+  // Where trees begin; none: they are not ordered. Needs: CheckRootChoice() is OK.
   std::optional<RootChoice> root = std::nullopt;
   World world = {};
   CurveSampling swc = {};  // of SWC files
-  // Of .png files: this library is installed without the one that draws them.
+  // Draws .png files; this library is also installed without the one that draws.
   Drawing draw = nullptr;
 };
 

@@ -15,7 +15,7 @@ namespace {
 
 enum class SwcType : int { kUndefined = 0, kSoma = 1, kFork = 5, kEnd = 6 };
 
-// Where the thickest nodes were asked for as roots, they are somas; readers look for type 1.
+// Roots chosen as the thickest nodes are somas; readers look for type 1.
 enum class Roots { kSomas, kLikeOthers };
 
 Roots RootsOf(const std::optional<TreeOrder>& order) {
@@ -44,7 +44,7 @@ uint64_t ClosedSurfaces(const SkeletonGraph& graph) {
   return count;
 }
 
-// Not worth a word where they are the thick spots of curves.
+// Small sheets are thick spots of curves and need no note.
 bool HasLargeSheets(const SkeletonGraph& graph) {
   return graph.sheets.size() > (graph.nodes.size() + graph.points.size()) / 4;
 }
@@ -87,7 +87,7 @@ void AddHeader(Text& text, const PointForest& forest, const SwcOptions& options,
            "6 end, 5 junction, 0 other\n# id type x y z radius parent\n");
 }
 
-// Decimals that tell a ten-thousandth of the spacing apart; none where a double has not as many.
+// Decimals for a resolution of a ten-thousandth of the spacing; none if a double has fewer.
 std::optional<int> DecimalsFor(const Placement& placement) {
   const double decimals = std::ceil(4 - std::log10(std::ranges::min(placement.spacing)));
   if (!(decimals <= std::numeric_limits<double>::max_digits10)) return std::nullopt;

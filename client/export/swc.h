@@ -13,7 +13,8 @@ namespace bccskel::exporting {
 
 struct SwcDocument {
   std::string text;
-  // What the format cannot show and was left out, a sentence for the user; empty if nothing was.
+  // What was left out because the format cannot show it, as a sentence for the user; empty if
+  // nothing.
   std::string note;
 };
 

@@ -21,7 +21,7 @@ class Text {
     (Append(parts), ...);
     return *this;
   }
-  // With at most this many decimals, and no zeros at their end.
+  // With at most this many decimals, without trailing zeros.
   Text& AddRounded(double number, int decimals) {
     std::array<char, 400> digits;  // the largest double has 309 in front of the point
     char* end = std::to_chars(digits.data(), digits.data() + digits.size(), number,
@@ -59,13 +59,13 @@ class Text {
     if (end == nullptr) end = std::to_chars(begin, begin + kMostDigits, number).ptr;
     used_ += static_cast<size_t>(end - begin);
   }
-  // Where the next bytes go, so many or fewer. No call of the library most often.
+  // Space for at most `bytes` more bytes. Most calls do not reallocate.
   char* Room(size_t bytes) {
     if (text_.size() - used_ < bytes) text_.resize(used_ + bytes + used_ / 8);
     return text_.data() + used_;
   }
-  // What std::to_chars() writes in ten times the time, of whole numbers and halves, as which most
-  // coordinates come. Null for other numbers.
+  // Writes the same as std::to_chars() in a tenth of the time, for whole numbers and halves, which
+  // most coordinates are. Null for other numbers.
   static char* WriteHalf(double number, char* to) {
     constexpr double kLargest = 9999;  // exponents are as short for larger ones
     const double size = number < 0 ? -number : number;
@@ -85,7 +85,7 @@ class Text {
     return to;
   }
 
-  std::string text_;  // longer than what is written
+  std::string text_;  // larger than its used part
   size_t used_ = 0;
 };
 

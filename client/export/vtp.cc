@@ -14,7 +14,7 @@
 namespace bccskel::exporting {
 namespace {
 
-// One <DataArray>, its values separated by line ends.
+// One <DataArray> with one value per line.
 template <typename WriteValues>
 void AddArray(Text& text, std::string_view type, std::string_view name, WriteValues write_values) {
   text.Add("<DataArray type=\"", type, "\" Name=\"", name, "\" format=\"ascii\">\n");
@@ -47,7 +47,7 @@ void AddCells(Text& text, std::string_view tag, const std::vector<std::vector<si
   text.Add("</", tag, ">\n");
 }
 
-// The places of the points on smooth curves, in the order of Polylines::points.
+// The positions of the points on smooth curves, in the order of Polylines::points.
 std::vector<WorldPoint> SmoothPoints(const SkeletonGraph& graph) {
   std::vector<WorldPoint> places;
   for (const SkeletonNode& node : graph.nodes) places.push_back(graph.PositionOf(node.at));
@@ -108,7 +108,7 @@ void AddFacts(Text& text, const MethodFacts& facts) {
   text.Add("</FieldData>\n");
 }
 
-// One value per cell; `value` is asked for each edge.
+// One value per cell; calls `value` for each edge.
 template <typename Value>
 void AddEdgeArray(Text& text, std::string_view type, std::string_view name,
                   std::string_view of_vertices, const SkeletonGraph& graph,

@@ -6,9 +6,9 @@
 
 namespace bccskel::exporting {
 
-// What coordinates mean, as far as the input states it. Empty: unknown.
+// The meaning of coordinates as stated by the input. Empty: unknown.
 struct World {
-  std::string axes;  // what they point to: "RAS", "LPS"
+  std::string axes;  // where they point: "RAS", "LPS"
   std::string unit;  // of coordinates, radii and lengths: "mm", "um", ...
 };
 

@@ -12,7 +12,7 @@ class FileFolder : public ranks::CheckpointFolder {
  public:
   explicit FileFolder(std::string path) : path_(std::move(path)) {}
 
-  // Makes the folder if there is none. Errors name the path.
+  // Creates the folder if missing. Errors name the path.
   absl::Status Make() const;
 
   absl::Status Write(const std::string& name, const ranks::Bytes& bytes) override;

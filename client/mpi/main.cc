@@ -90,7 +90,7 @@ std::variant<Command, ExitCode> Parse(std::vector<char*> words) {
 
 // One line per stage, which scripts read, and one for the rank.
 void Report(MpiExchange& exchange) {
-  exchange.Enter(bccskel::ranks::Stage::kGathering);  // which ends it, too
+  exchange.Enter(bccskel::ranks::Stage::kGathering);  // this also ends the stage
   constexpr const char* kStages[bccskel::ranks::kStageCount] = {"sharing", "distances", "thinning",
                                                                 "topology", "gathering"};
   for (size_t n = 0; n < bccskel::ranks::kStageCount; ++n) {

@@ -17,7 +17,7 @@ struct ExchangeCounts {
   uint64_t messages = 0;  // each to one other rank
   uint64_t bytes = 0;     // in these
   double waited = 0;      // seconds in trades and sums, sending included
-  int64_t peak = 0;       // KiB of memory, the most until the end of the stage; 0: not run
+  int64_t peak = 0;       // peak memory until the end of the stage, KiB; 0: not run
 };
 
 // The ranks of an MPI job. Waits without occupying the processor: after 100 microseconds of polling

@@ -27,7 +27,7 @@ absl::Status CheckOutputFormats(const SkeletonizeArguments& arguments) {
   return absl::OkStatus();
 }
 
-// Makes this rank's part of a generated object; null where there is none.
+// Generates this rank's part of a shape; null if the input is a file.
 std::function<absl::StatusOr<Volume>(const exec::Context&)> MakerOf(
     const SkeletonizeArguments& arguments, const RankOptions& options, ranks::Exchange& exchange) {
   if (!options.shape.has_value()) return nullptr;

@@ -20,7 +20,7 @@ class Words {
     return std::erase_if(words_, [&](const char* word) { return word == name; }) > 0;
   }
 
-  // `--name VALUE` and `--name=VALUE`; none where it is not there.
+  // `--name VALUE` and `--name=VALUE`; nullopt if it is absent.
   absl::StatusOr<std::optional<std::string>> TakeValue(std::string_view name) {
     for (auto word = words_.begin(); word != words_.end(); ++word) {
       std::string_view text = *word;

@@ -36,7 +36,7 @@ inline constexpr char kRankOptionsHelp[] =
     "                              also --points N, --seed N, --noise X\n"
     "  --report-exchange           Report on standard error what each rank sent, and its memory\n";
 
-// Takes those options out of the words of a command line.
+// Extracts these options from a command line.
 // Errors: INVALID_ARGUMENT.
 absl::StatusOr<RankOptions> TakeRankOptions(std::vector<char*>& words);
 

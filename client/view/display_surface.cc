@@ -16,10 +16,10 @@ namespace {
 
 constexpr double kShellWidth = 1;
 
-// A surface may have this many times the triangles that are wanted before it is simplified: more
-// take long and are not seen.
+// A surface may have this many times the requested triangles before simplification: more take long
+// and are not visible.
 constexpr double kExcess = 2;
-// Of surfaces made of cells, in cells: enough to take their steps off.
+// For surfaces made of cells, in cells: enough to smooth their steps.
 constexpr float kCellReach = 3;
 
 // Fewer triangles, ordered so that neighbors in space are neighbors in memory.
@@ -44,10 +44,10 @@ void Simplify(SurfaceMesh& mesh, size_t most_triangles) {
                                                    sizeof(SurfaceVertex)));
 }
 
-// As fine as simplification can use: point by point, or of cells as wide as it takes.
+// As fine as simplification can use: of points, or of cells as wide as necessary.
 absl::StatusOr<SurfaceMesh> SmoothMesh(const Volume& object, size_t most_triangles,
                                        const exec::Context& context) {
-  constexpr double kTrianglesPerPoint = 11;  // of ExtractSurface(), for one of the finest cells
+  constexpr double kTrianglesPerPoint = 11;  // of ExtractSurface(), per point of the finest cells
   const double affordable = kExcess * static_cast<double>(most_triangles);
   CellGrid grid = CellGrid::Of(object);
   if (kTrianglesPerPoint * grid.TriangleEstimate() <= affordable) {
@@ -80,7 +80,7 @@ DisplaySurface InWorld(const SurfaceMesh& mesh, const Placement& placement) {
   return surface;
 }
 
-// The points of an object that are deeper than a shell.
+// The points of an object deeper than a shell.
 Volume DeeperThan(int32_t shell, const Volume& object, const DistanceField& distance) {
   std::vector<BrickKey> keys(object.keys().begin(), object.keys().end());
   std::vector<BrickBits> bricks(object.bricks().begin(), object.bricks().end());
@@ -110,7 +110,7 @@ Volume GoneAfter(int32_t shell, int32_t last_shell, const Volume& object,
   return later.ok() ? *std::move(later) : Volume();
 }
 
-// `later(shell)` is what is left when that many shells are gone.
+// `later(shell)` is what remains when that many shells are removed.
 absl::StatusOr<Peeling> PeelLayers(const Volume& object, int32_t last_shell,
                                    const std::function<Volume(int32_t)>& later,
                                    const PeelingLimits& limits, const exec::Context& context) {

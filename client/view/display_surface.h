@@ -15,7 +15,7 @@
 
 namespace bccskel::view {
 
-// A surface for the eye: in the world, smoothed, and with no more triangles than it takes.
+// A surface for display: in world coordinates, smoothed, and simplified.
 struct DisplaySurface {
   std::vector<WorldPoint> vertices;
   std::vector<SurfaceTriangle> triangles;  // counterclockwise seen from outside
@@ -28,9 +28,9 @@ struct DisplaySurface {
 absl::StatusOr<DisplaySurface> MakeDisplaySurface(const Volume& object, size_t most_triangles,
                                                   const exec::Context& context);
 
-// What is left of an object when its outer shells are peeled off.
+// The rest of an object after its outer shells are peeled off.
 struct Peeled {
-  int32_t shells = 0;  // how many are gone; 0 for the object itself
+  int32_t shells = 0;  // number of shells removed; 0 for the object itself
   DisplaySurface surface;
 };
 
@@ -41,21 +41,21 @@ struct PeelingLimits {
 };
 
 struct Peeling {
-  std::vector<Peeled> layers;  // first the object itself, then with more and more shells gone
+  std::vector<Peeled> layers;  // the object itself, then with more and more shells removed
   int32_t last_shell = 0;
 };
 
-// The object and a choice of its layers, evenly spread, by the distance to the background. Shells
-// are one lattice unit thick.
+// The object and evenly spread layers of it, by the distance to the background. Shells are one
+// lattice unit thick.
 // Errors: those of ExtractSurface().
 absl::StatusOr<Peeling> PeelForDisplay(const Volume& object, const PeelingLimits& limits,
                                        const exec::Context& context);
 
-// The points that went with each shell when the object was thinned.
+// The points that thinning removed with each shell.
 using PeeledShells = std::map<int32_t, Volume>;
 
-// The same by the shells of a thinning: a layer is what went later. `last_shell` is the object's
-// deepest; what went after it is no part of a layer.
+// The same by the shells of a thinning: a layer consists of what was removed later. `last_shell` is
+// the object's deepest; later points belong to no layer.
 // Errors: those of ExtractSurface().
 absl::StatusOr<Peeling> PeelByShells(const Volume& object, const PeeledShells& shells,
                                      int32_t last_shell, const PeelingLimits& limits,

@@ -13,7 +13,7 @@ namespace {
 using Json = nlohmann::json;
 using Kind = JsonEvent::Kind;
 
-// Tells where the parser is.
+// Characters that track the parser's position.
 class TrackedChars {
  public:
   using iterator_category = std::forward_iterator_tag;
@@ -41,7 +41,7 @@ class TrackedChars {
   const char** now_;
 };
 
-// The calls that nlohmann's parser makes, in its spelling; false ends it.
+// The callbacks of nlohmann's parser, in its spelling; false stops it.
 class Handler {
  public:
   Handler(std::string_view text, const JsonMembers& wanted, const TakeJson& take)
@@ -63,7 +63,7 @@ class Handler {
     return Add({Kind::kDouble, std::bit_cast<uint64_t>(value)});
   }
   bool string(const std::string& value) { return AddString(Kind::kString, value); }
-  bool binary(const std::vector<uint8_t>& /*value*/) { return false; }  // not of JSON
+  bool binary(const std::vector<uint8_t>& /*value*/) { return false; }  // not in JSON
   bool start_array(size_t /*size*/) {
     if (depth_ == 1 && by_item_) {
       ++depth_;
@@ -146,7 +146,7 @@ class Handler {
   std::string member_;
   bool by_item_ = false;
   bool wanted_now_ = false;
-  std::optional<size_t> item_;  // of a list that is read item by item
+  std::optional<size_t> item_;  // of a list that is read by item
   JsonValue value_;
 };
 

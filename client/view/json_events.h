@@ -12,7 +12,7 @@
 
 namespace bccskel::view {
 
-// What stands next in a JSON value.
+// The next token of a JSON value.
 struct JsonEvent {
   enum class Kind : uint8_t {
     kNull,
@@ -28,30 +28,31 @@ struct JsonEvent {
     kEndObject,
   };
   Kind kind;
-  // By kind: the number's bits, where a string begins in JsonValue::strings, or the place in the
-  // text: of the bracket that begins, behind the one that ends.
+  // By kind: the bits of the number; the position of the string in JsonValue::strings; or the
+  // position in the text, at an opening bracket and after a closing one.
   uint64_t bits = 0;
   uint64_t size = 0;  // of a string
 };
 
-// One value: a number is one event, a list is those of its items between two more.
+// One value: one event for a number; a list has those of its items between two more.
 struct JsonValue {
   std::vector<JsonEvent> events;
   std::string strings;
 };
 
-// Members of a document that is an object.
+// The requested members of a document that is an object.
 struct JsonMembers {
   std::vector<std::string_view> whole;
-  std::vector<std::string_view> by_item;  // if they are lists: an empty one, then item by item
+  std::vector<std::string_view> by_item;  // lists: an empty one first, then each item
 };
 
-// False: no more. The item's index is none for a whole member.
+// Returns false to stop. `item` is the item's index; none for a whole member.
 using TakeJson =
     std::function<bool(std::string_view member, std::optional<size_t> item, const JsonValue&)>;
 
-// Hands out values as they stand in the text, all of which is checked: documents are larger than
-// trees of them should be. Errors: INVALID_ARGUMENT for what is not JSON, or not an object.
+// Passes on values in the order of the text, all of which is checked. Builds no tree, because
+// documents are large.
+// Errors: INVALID_ARGUMENT for text that is not JSON or not an object.
 absl::Status ReadJson(std::string_view text, const JsonMembers& wanted, const TakeJson& take);
 
 }  // namespace bccskel::view

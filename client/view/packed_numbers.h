@@ -10,11 +10,12 @@
 
 namespace bccskel::view {
 
-// Text that a page can hold and a browser unpacks by itself: deflated (zlib) and in base64.
-// Errors: RESOURCE_EXHAUSTED when the compressor finds no memory.
+// Text that a page can hold and a browser can unpack: deflated (zlib), in base64.
+// Errors: RESOURCE_EXHAUSTED when the compressor gets no memory.
 absl::StatusOr<std::string> PackText(std::string_view text);
 
-// Packed as above: the difference of each number to the one before, zigzag, in bytes of seven bits.
+// Packed as above: the difference of each number to the previous one, zigzag-encoded, in bytes of
+// seven bits.
 absl::StatusOr<std::string> PackNumbers(std::span<const uint32_t> numbers);
 
 }  // namespace bccskel::view

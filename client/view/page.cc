@@ -20,7 +20,7 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
-// The cube that everything lies in, and its 65,535 steps.
+// Quantizes coordinates to the 65,535 steps of a cube that contains everything.
 struct Quantizer {
   WorldPoint low;
   double step;
@@ -64,7 +64,7 @@ Quantizer QuantizerFor(Box box) {
   WorldPoint& low = box.low;
   double edge = 0;
   for (size_t axis = 0; axis < 3; ++axis) edge = std::max(edge, box.high[axis] - low[axis]);
-  // A margin, since smoothed inner layers of thin objects may poke out of the outermost.
+  // A margin, because smoothed inner layers of thin objects may protrude from the outermost.
   const double margin = edge / 64;
   for (double& coordinate : low) coordinate -= margin;
   return {low, edge > 0 ? (edge + 2 * margin) / 65535 : 1};
@@ -74,7 +74,7 @@ absl::StatusOr<OrderedJson> SurfaceJson(const std::vector<WorldPoint>& vertices,
                                         const std::vector<SurfaceTriangle>& triangles,
                                         const Quantizer& quantize) {
   std::vector<uint32_t> coordinates, corners;
-  for (size_t axis = 0; axis < 3; ++axis) {  // one axis after the other: differences stay small
+  for (size_t axis = 0; axis < 3; ++axis) {  // one axis after the other keeps differences small
     for (const WorldPoint& v : vertices) coordinates.push_back(quantize(v[axis], axis));
   }
   for (const SurfaceTriangle& triangle : triangles) {
@@ -153,7 +153,7 @@ OrderedJson PruningJson(const PruningSteps& pruning) {
   return json;
 }
 
-// What the page shows of a document: its text, since it is large and most of it stays as it is.
+// The part of the document that the page shows: its text, because it is large and mostly unchanged.
 std::string ShownOf(const ResultDocument& document) {
   const std::string steps = PruningJson(PruningStepsOf(document)).dump();
   const std::string_view text = *document.text;
@@ -170,7 +170,7 @@ std::string ShownOf(const ResultDocument& document) {
   return shown.append(from, text.data() + text.size());
 }
 
-// JSON inside of a script element: no text in it may end the element.
+// JSON for a script element, which no text in it may end.
 std::string InScript(std::string_view json) {
   std::string text;
   for (const char c : json) {
@@ -194,7 +194,7 @@ absl::StatusOr<std::string> PageOf(const PageContent& content) {
   BCCSKEL_ASSIGN_OR_RETURN(const std::string result, PackText(ShownOf(content.result)));
   BCCSKEL_ASSIGN_OR_RETURN(const std::string three, PackText(kThree));
   std::string page(kPageFrame);
-  // From the end to the start, so that no inserted text is searched for marks.
+  // From last to first, so that inserted text is not searched for placeholders.
   Replace(page, "{{loader}}", kLoaderScript);
   Replace(page, "{{viewer}}", kViewerScripts);
   Replace(page, "{{three}}", three);

@@ -10,16 +10,17 @@
 namespace bccskel::view {
 
 struct PageContent {
-  std::string title;  // plain text, UTF-8 or not
+  std::string title;  // plain text in any encoding
   const ResultDocument& result;
   const Peeling& peeling;  // without layers: the skeleton alone
 };
 
 // A self-contained page that a browser opens without a network: the object as tinted glass, its
-// skeleton and their tools. Equal skeletons give equal bytes.
-// Surfaces are quantized to 16 bits across the object; the skeleton is the document itself, its
-// sheets as a surface, without its timings and, where there are smooth curves, without the lattice
-// points below them. Errors: RESOURCE_EXHAUSTED.
+// skeleton and tools for both. Equal skeletons give equal bytes.
+// Surfaces are quantized to 16 bits across the object. The page contains the skeleton's document
+// without its timings and, for smooth curves, without their lattice points; sheets are stored as a
+// surface.
+// Errors: RESOURCE_EXHAUSTED.
 absl::StatusOr<std::string> PageOf(const PageContent& content);
 
 }  // namespace bccskel::view

@@ -15,7 +15,7 @@
 namespace bccskel::view {
 namespace {
 
-// Tracing takes about a microsecond a point.
+// Tracing takes about a microsecond per point.
 constexpr uint64_t kMostTracedPoints = 4'000'000;
 
 using Path = std::vector<LatticePoint>;
@@ -26,7 +26,7 @@ Path PathOf(const SkeletonGraph& graph, const SkeletonEdge& edge) {
   return path;
 }
 
-// Through which edge of a graph each point runs.
+// The edges that run through each point.
 class PointOwners {
  public:
   explicit PointOwners(const SkeletonGraph& graph) {
@@ -36,12 +36,12 @@ class PointOwners {
     }
   }
 
-  // The first of those through the point.
+  // The first edge through the point.
   std::optional<uint32_t> FirstAt(LatticePoint p) const {
     const Owner* found = owners_.Find(p);
     return found == nullptr ? std::nullopt : std::optional(found->first);
   }
-  // The only one through the point.
+  // The only edge through the point, if there is exactly one.
   std::optional<uint32_t> OnlyAt(LatticePoint p) const {
     const Owner* found = owners_.Find(p);
     return found == nullptr || found->shared ? std::nullopt : std::optional(found->first);
@@ -142,8 +142,8 @@ class Collector {
     branch.edges = {FirstEdgeOf(path)};
   }
 
-  // Of the result, through one of the points. Sheets that pruning makes curves of have none: they
-  // are shown with the first edge.
+  // The first edge of the result through any of the points. Sheets that pruning turns into curves
+  // have none: they are shown with the first edge.
   uint32_t FirstEdgeOf(const Path& path) const {
     for (size_t n = 0; n < path.size(); ++n) {
       const auto edge = owners_.FirstAt(path[(n + path.size() / 2) % path.size()]);

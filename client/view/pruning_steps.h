@@ -10,7 +10,7 @@
 
 namespace bccskel::view {
 
-// A node that the result itself does not have: a junction that it has merged into another.
+// A junction that the result lacks because it was merged into another.
 struct PrunedNode {
   WorldPoint position;
   double radius;
@@ -22,8 +22,8 @@ struct PrunedBranch {
   uint32_t target;
   EdgeFigures figures;
   double level;                 // infinity: never pruned
-  std::vector<uint32_t> edges;  // of the result, that the branch is made of
-  bool shared;                  // no edge is the branch's own: it runs along this one
+  std::vector<uint32_t> edges;  // edges of the result that make up the branch
+  bool shared;                  // no edge belongs to this branch alone
 };
 
 struct NodeState {
@@ -33,29 +33,28 @@ struct NodeState {
   friend auto operator<=>(const NodeState&, const NodeState&) = default;
 };
 
-// What begins and ceases to be there. Index into the result's items, followed by the additional
-// ones.
+// What appears and disappears: indices into the result's items, followed by the additional ones.
 struct Change {
   std::vector<uint32_t> on;
   std::vector<uint32_t> off;
 };
 
 struct PruningStep {
-  double level;  // the threshold is just above it
+  double level;  // the threshold is just above this
   Change states;
   Change branches;
 };
 
-// The graphs that pruning leaves of a result, each as the difference to the one before; the first
-// to the result.
+// The graphs that pruning leaves of a result, each as the difference from the previous one; the
+// first from the result.
 struct PruningSteps {
   std::vector<PrunedNode> nodes;
-  std::vector<NodeState> states;       // behind those of the result's nodes
-  std::vector<PrunedBranch> branches;  // behind the result's edges
+  std::vector<NodeState> states;       // after those of the result's nodes
+  std::vector<PrunedBranch> branches;  // after the result's edges
   std::vector<PruningStep> steps;
 };
 
-// No steps where no edge has a level, or the result states no lattice, as those of older versions.
+// No steps if no edge has a level, or if the result states no lattice, as in older versions.
 PruningSteps PruningStepsOf(const ResultDocument& document);
 
 }  // namespace bccskel::view

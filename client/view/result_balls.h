@@ -8,8 +8,8 @@
 
 namespace bccskel::view {
 
-// A ball around every point of a result: what BallsOf() of the graph is, with its places on the
-// lattice of `placement`.
+// A ball around every point of a result: the same as BallsOf() its graph, on the lattice of
+// `placement`.
 std::vector<OpenBall> BallsOf(const ResultDocument& result, const Placement& placement);
 
 }  // namespace bccskel::view

@@ -18,7 +18,7 @@ namespace {
 
 using Kind = JsonEvent::Kind;
 
-// Where a value stands, composed only for an error: documents have millions of values.
+// The path of a value, composed only for an error: documents have millions of values.
 struct Place {
   const Place* in = nullptr;  // none: the document
   std::string_view member;    // empty: an item of a list
@@ -32,7 +32,7 @@ struct Place {
   }
 };
 
-// A member of an object, and where its value goes.
+// A member of an object, and the destination of its value.
 template <typename T>
 struct Member {
   std::string_view name;
@@ -49,11 +49,11 @@ Member<T> Optional(std::string_view name, T& to) {
   return {name, to};
 }
 
-// What is checked, but not kept.
+// A value that is checked but not stored.
 struct Unkept {
   bool there = false;
 };
-// A value whose text is noted, too.
+// A value together with its text.
 template <typename T>
 struct WithText {
   T& to;
@@ -72,7 +72,7 @@ struct Order {
   std::string& rule;
 };
 
-// Reads values from their events. After the first error what is read is incomplete.
+// Reads values from their events. After the first error the result is incomplete.
 class Reader {
  public:
   explicit Reader(ResultDocument& to) : to_(to) {}
@@ -314,7 +314,7 @@ class Reader {
     }
   }
 
-  // Every Read() and this go to the last event of the value that begins now.
+  // Like every Read(), advances to the last event of the current value.
   void Skip() {
     int64_t open = 0;
     for (;; ++now_) {
@@ -345,7 +345,7 @@ class Reader {
         return to_.text->substr(begin.bits, now_->bits - begin.bits);
     }
   }
-  // Of a string or a name.
+  // The text of a string or a name.
   std::string_view Text() const {
     return std::string_view(value_->strings).substr(now_->bits, now_->size);
   }

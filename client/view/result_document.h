@@ -48,9 +48,9 @@ struct ResultDocument {
   std::vector<Edge> edges;
   Sheets sheets;
   std::optional<Placement> placement;  // unknown in results of older versions
-  PreparingOptions preparing;          // what was done to the object before thinning
-  std::vector<PreparingStep> steps;    // and what came of it
-  bool border_continues = false;       // then balls reach beyond it
+  PreparingOptions preparing;          // the preparation of the object before thinning
+  std::vector<PreparingStep> steps;    // and its effects
+  bool border_continues = false;       // whether balls reach beyond the border
   Certificate certificate;
   uint64_t object_points = 0;
   std::vector<std::pair<std::string, std::string>> options;  // in the document's order
@@ -59,15 +59,15 @@ struct ResultDocument {
   std::string world = "unknown";
   std::string unit = "unknown";
   std::optional<std::vector<uint32_t>> roots;  // of a result with an order; indices into nodes
-  std::string root_rule;                       // of the roots, where the document says it
+  std::string root_rule;                       // the rule of the roots, if the document states it
   std::shared_ptr<const std::string> text;     // the document itself
-  // Values in it, in order, that a page has in another form: timings, sheets, and the points of
-  // edges that have a smooth curve.
+  // Values of the document, in order, that a page holds in another form: timings, sheets, and the
+  // points of edges with a smooth curve.
   std::vector<std::string_view> not_on_pages;
 };
 
-// Errors: INVALID_ARGUMENT with the place of the first thing that is not as the schema says.
-// Members that the schema may gain are ignored, and those that it has gained may be missing.
+// Errors: INVALID_ARGUMENT with the position of the first violation of the schema. Unknown members
+//         are ignored, and members that later versions of the schema added may be missing.
 absl::StatusOr<ResultDocument> ParseResultDocument(std::string text);
 
 // Errors: those of ParseResultDocument() and of ReadFileBytes(), with the path; RESOURCE_EXHAUSTED

@@ -33,8 +33,8 @@ struct ResultGraph {
 // Errors: INVALID_ARGUMENT as ReadResultGraph().
 absl::StatusOr<ResultGraph> ResultGraphOf(const ResultDocument& document);
 
-// Errors: those of ReadResultDocument(); INVALID_ARGUMENT for a result without placement, as older
-//         versions wrote it, and for places that are not on its lattice.
+// Errors: those of ReadResultDocument(); INVALID_ARGUMENT for a result without placement, from
+//         older versions, and for positions that are not on its lattice.
 absl::StatusOr<ResultGraph> ReadResultGraph(const std::string& path);
 
 }  // namespace bccskel::view

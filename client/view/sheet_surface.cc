@@ -12,7 +12,7 @@
 namespace bccskel::view {
 namespace {
 
-// Fewer triangles that hang together are a thick spot of a curve.
+// Smaller connected groups of triangles are thick spots of a curve.
 constexpr size_t kLeastTriangles = 40;
 constexpr int kSmoothingSteps = 3;
 
@@ -21,7 +21,7 @@ struct Spot {
   double radius;
 };
 
-// Places that no lattice has, as of a damaged placement, are left out.
+// nullopt for positions beyond any lattice, as from a damaged placement.
 std::optional<LatticePoint> NearestPoint(const std::array<double, 3>& place) {
   constexpr double kFarthest = 2.0 * kMaxExtentCells;
   const auto is_there = [](double v) { return std::abs(v) <= kFarthest; };
@@ -83,7 +83,7 @@ void DropThickSpots(size_t spots, std::vector<SurfaceTriangle>& triangles) {
   });
 }
 
-// Each vertex goes to the mean of itself and those around it, each counted once per triangle.
+// Moves each vertex to the mean of itself and its neighbors, each counted once per triangle.
 void SmoothOnce(SheetSurface& sheets) {
   std::vector<WorldPoint> sums = sheets.vertices;
   std::vector<int> many(sums.size(), 1);

@@ -28,7 +28,7 @@ std::optional<Message> PayloadOf(const absl::Status& status, const char* type_ur
   return message;
 }
 
-// Not longer than the limit, and not ended in the middle of a UTF-8 sequence.
+// Truncates to the limit without splitting a UTF-8 sequence.
 std::string CutMessage(std::string message) {
   if (message.size() <= kMaxErrorMessageBytes) return message;
   size_t end = kMaxErrorMessageBytes;

@@ -15,7 +15,7 @@
 
 namespace bccskel::wire {
 
-// The longest error message on the wire, bytes; the rest is cut off.
+// The longest error message on the wire, in bytes; longer ones are truncated.
 inline constexpr size_t kMaxErrorMessageBytes = 1024;
 
 // Each returns the status with one more detail. Needs: !status.ok().
@@ -30,14 +30,15 @@ absl::Status WithRetryDelay(absl::Status status, absl::Duration delay);
 // INVALID_ARGUMENT with reason FIELD_INVALID: "<field>: <description>".
 absl::Status InvalidField(const std::string& field, const std::string& description);
 
-// Empty where the status has no such detail or it cannot be read.
+// nullopt if the status has no such detail or it cannot be parsed.
 std::optional<v1::ErrorInfo> ErrorInfoOf(const absl::Status& status);
 std::optional<v1::BadRequest> BadRequestOf(const absl::Status& status);
 std::optional<v1::QuotaFailure> QuotaFailureOf(const absl::Status& status);
 std::optional<absl::Duration> RetryDelayOf(const absl::Status& status);
 
 // The form of an error in the trailer `grpc-status-details-bin`. Code and message are those of the
-// status, the message cut to kMaxErrorMessageBytes. Payloads that are no messages stay behind.
+// status, the message truncated to kMaxErrorMessageBytes. Payloads that are not messages are
+// omitted.
 v1::Status ToRpcStatus(const absl::Status& status);
 absl::Status FromRpcStatus(const v1::Status& status);
 

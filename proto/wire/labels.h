@@ -9,7 +9,7 @@
 
 namespace bccskel::wire {
 
-// How far a job with many labels is.
+// The progress of a job with many labels.
 struct LabelProgress {
   uint64_t done = 0;
   uint64_t total = 0;

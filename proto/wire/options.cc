@@ -168,7 +168,7 @@ absl::StatusOr<PruningRule> FromMessage(v1::PruningRule rule, const std::string&
 v1::ObjectSource ToMessage(ObjectSource source) {
   switch (source) {
     case ObjectSource::kPoints:
-      break;  // left out, so that such options have the bytes, and results the key, of old
+      break;  // omitted, so that such options keep their old bytes, and results their old key
     case ObjectSource::kVoxels:
       return v1::OBJECT_SOURCE_VOXELS;
     case ObjectSource::kRefinedVoxels:

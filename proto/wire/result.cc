@@ -96,7 +96,7 @@ absl::StatusOr<PreparingStep> FromMessage(const v1::PreparingStep& message) {
   return PreparingStep{kind, message.count(), message.points_added(), message.points_removed()};
 }
 
-// A server that is newer may have options that this client does not know.
+// A newer server may have options that this client does not know.
 absl::StatusOr<SkeletonizeOptions> OptionsOf(const v1::SkeletonSummary& message) {
   absl::StatusOr<SkeletonizeOptions> options =
       wire::FromMessage(message.options(), "summary.options");

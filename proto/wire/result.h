@@ -21,7 +21,7 @@ Certificate FromMessage(const v1::Certificate& message);
 v1::ShellProgress ToMessage(const exec::ShellProgress& progress, std::chrono::nanoseconds elapsed);
 exec::ShellProgress FromMessage(const v1::ShellProgress& message);
 
-// What the pipeline does not know about a job.
+// Facts about a job that the pipeline does not know.
 struct JobFacts {
   std::chrono::nanoseconds queued{0};
   std::chrono::nanoseconds decoded{0};
@@ -36,8 +36,8 @@ struct JobFacts {
 v1::SkeletonSummary SummaryOf(const SkeletonizeResult& result, const JobFacts& facts);
 JobFacts FactsOf(const v1::SkeletonSummary& message);
 
-// Everything that the summary says, without graph and thin volume.
-// Errors: DATA_LOSS for a summary that no server sends (a digest that has not 32 bytes).
+// The summary's content, without graph and thin volume.
+// Errors: DATA_LOSS for an invalid summary (a digest that is not 32 bytes long).
 absl::StatusOr<SkeletonizeResult> FromMessage(const v1::SkeletonSummary& message);
 
 }  // namespace bccskel::wire

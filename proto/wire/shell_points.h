@@ -11,13 +11,13 @@
 
 namespace bccskel::wire {
 
-// Rows of a message: each has 15 bytes at most, so a message stays within 256 KiB.
+// Rows per message: each has at most 15 bytes, so a message stays within 256 KiB.
 inline constexpr size_t kMaxShellPointRows = 16384;
 
 // The points in brick order, where differences are small; none for no points.
 std::vector<v1::ShellPoints> ShellPointsMessages(int32_t shell, const Volume& points);
 
-// Errors: DATA_LOSS for columns of several lengths and for coordinates that no lattice has.
+// Errors: DATA_LOSS for columns of different lengths and for coordinates outside any lattice.
 absl::StatusOr<std::vector<LatticePoint>> PointsOf(const v1::ShellPoints& message);
 
 }  // namespace bccskel::wire

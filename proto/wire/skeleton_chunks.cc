@@ -11,18 +11,18 @@
 namespace bccskel::wire {
 namespace {
 
-// Most bytes of a row: 5 for each 32-bit varint, 3 for a 16-bit one, 4 for a float, 8 for a double,
-// 10 for a 64-bit one, 1 for a kind.
+// The largest size of a row: 5 bytes for each 32-bit varint, 3 for a 16-bit one, 4 for a float, 8
+// for a double, 10 for a 64-bit one, 1 for a kind.
 constexpr size_t kNodeRowBytes = 1 + 7 * 5;
 constexpr size_t kEdgeRowBytes = 2 * 5 + 10 + 8;
 constexpr size_t kPointRowBytes = 5 * 5 + 3 * 3;
 // Tags and lengths of the tables and their columns, and the sequence number.
 constexpr size_t kFramingBytes = 256;
 
-// More points than any lattice has; keeps sums of hostile counts from wrapping around.
+// More points than any lattice has; prevents overflow in sums of hostile counts.
 constexpr uint64_t kMaxEdgePoints = uint64_t{1} << 62;
 
-// How many of `left` rows fit; takes their bytes off the budget.
+// The number of `left` rows that fit; subtracts their bytes from the budget.
 size_t TakeRows(size_t left, size_t row_bytes, size_t& budget_bytes) {
   const size_t rows = std::min(left, budget_bytes / row_bytes);
   budget_bytes -= rows * row_bytes;
@@ -86,7 +86,7 @@ void AppendShift(const SkeletonPoint& point, v1::SkeletonPointColumns& columns) 
   columns.add_shift_z(point.shift[2]);
 }
 
-// What is no shift at all is taken for the nearest one that is.
+// Clamps invalid shifts to the nearest valid one.
 std::array<int16_t, 3> ShiftOfRow(const v1::SkeletonPointColumns& columns, int row) {
   const auto part = [](int32_t v) {
     return static_cast<int16_t>(std::clamp<int32_t>(v, INT16_MIN, INT16_MAX));
@@ -94,7 +94,7 @@ std::array<int16_t, 3> ShiftOfRow(const v1::SkeletonPointColumns& columns, int r
   return {part(columns.shift_x(row)), part(columns.shift_y(row)), part(columns.shift_z(row))};
 }
 
-// A column that may be missing as a whole.
+// The number of rows of an optional column.
 int RowsOf(int column, int table) { return column == 0 ? table : column; }
 
 absl::Status CheckColumns(const char* table, std::initializer_list<int> sizes) {

@@ -13,16 +13,16 @@
 
 namespace bccskel::wire {
 
-// No serialized SkeletonChunk is longer.
+// The largest size of a serialized SkeletonChunk.
 inline constexpr size_t kMaxSkeletonChunkBytes = 256 * 1024;
 
-// Cuts a graph into chunks, one at a time, so that a stream holds one of them and not all.
+// Splits a graph into chunks, one at a time, so that a stream holds only one of them.
 // Needs: `graph` outlives the pager and does not change.
 class SkeletonChunkPager {
  public:
   explicit SkeletonChunkPager(const SkeletonGraph& graph);
 
-  // The next chunk; nothing after the last one. A graph without nodes has one empty chunk.
+  // The next chunk; nullopt after the last one. A graph without nodes has one empty chunk.
   std::optional<v1::SkeletonChunk> Next();
 
  private:
@@ -55,10 +55,9 @@ class SkeletonAssembler {
   //         this version does not know.
   absl::Status Add(const v1::SkeletonChunk& chunk);
 
-  // The result that the summary and the chunks make together.
-  // Errors: DATA_LOSS for wrong counts, edges to nodes that do not exist, edges whose points do not
-  //         run from source to target, radii that are none, and a graph that has not the summary's
-  //         digest.
+  // Combines the summary and the chunks into a result.
+  // Errors: DATA_LOSS for wrong counts, edges to missing nodes, edges whose points do not run from
+  //         source to target, invalid radii, and a graph whose digest is not the summary's.
   absl::StatusOr<SkeletonizeResult> Finish(const v1::SkeletonSummary& summary) &&;
 
  private:

@@ -18,7 +18,7 @@ std::string Counted(uint64_t count, std::string_view one, std::string_view many)
 // "1 component, 3 loops, 0 cavities".
 std::string BettiPhrase(const BettiNumbers& betti);
 
-// The two lines under a picture's title: what went in, and what came out with its check.
+// The two lines under a picture's title: the input, and the result with its certificate.
 std::string ObjectPhrase(const SkeletonizeResult& result);
 std::string SkeletonPhrase(const SkeletonizeResult& result);
 

@@ -33,7 +33,7 @@ DisplayCurve CurveOf(const SkeletonGraph& graph, const SkeletonEdge& edge) {
 }
 
 using Rgb = std::array<double, 3>;
-// Dark enough to stand on white everywhere, and told apart without red and green.
+// Dark enough on white everywhere, and distinguishable without red and green.
 constexpr std::array<Rgb, 5> kRadiusScale = {
     {{46, 16, 101}, {124, 29, 130}, {196, 45, 96}, {235, 94, 40}, {245, 158, 11}}};
 

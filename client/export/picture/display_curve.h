@@ -10,19 +10,19 @@
 
 namespace bccskel::exporting {
 
-// An edge as a picture draws it: in the world, with the steps of the lattice smoothed away between
-// its fixed ends. For the eye only; every other format holds the exact points.
+// An edge as drawn in pictures: in world coordinates, with the steps of the lattice smoothed
+// between its fixed ends. For display only; every other format holds the exact points.
 struct DisplayCurve {
   std::vector<WorldPoint> points;
   std::vector<double> radii;
 };
 
-// A curve without the steps of the lattice; the first and the last point stay.
+// Smooths the steps of the lattice; keeps the first and the last point.
 std::vector<WorldPoint> SmoothedForDisplay(std::vector<WorldPoint> points);
 
 std::vector<DisplayCurve> DisplayCurvesOf(const SkeletonGraph& graph);
 
-// The radii of a graph's points, those of nodes and sheets included; {0, 0} for an empty graph.
+// The range of radii of a graph's points, nodes and sheets; {0, 0} for an empty graph.
 struct RadiusRange {
   double low;
   double high;

@@ -28,7 +28,7 @@ size_t Utf8Length(std::string_view text) {
 
 bool IsControl(char c) { return static_cast<uint8_t>(c) < 0x20; }
 
-// Writes `invalid` for each byte that is not UTF-8, and `write(c)` for each character of one byte.
+// Writes `invalid` for each byte that is not UTF-8, and `write(c)` for each one-byte character.
 template <typename Write>
 std::string Rewritten(std::string_view text, std::string_view invalid, Write write) {
   std::string written;

@@ -6,8 +6,8 @@
 
 namespace bccskel::exporting {
 
-// Texts of users and files as parts of other texts. Bytes that are not UTF-8, as file names and
-// units may hold, become U+FFFD.
+// Escape texts of users and files for use in other texts. Bytes that are not UTF-8, as in file
+// names and units, become U+FFFD.
 
 // A JSON string with its quotes.
 std::string JsonString(std::string_view text);

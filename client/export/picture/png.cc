@@ -30,7 +30,7 @@ std::string HeaderOf(const RgbaImage& image) {
   return header;
 }
 
-// Rows with filter 2 (each byte less the byte above): smooth images shrink to a third.
+// Rows with filter 2 (each byte minus the byte above): smooth images shrink to a third.
 std::string FilteredRows(const RgbaImage& image) {
   constexpr char kUpFilter = 2;
   const size_t row_bytes = size_t{4} * image.width;

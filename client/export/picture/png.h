@@ -10,7 +10,7 @@
 namespace bccskel::exporting {
 
 // The image as a PNG file.
-// Errors: RESOURCE_EXHAUSTED when the compressor finds no memory.
+// Errors: RESOURCE_EXHAUSTED when the compressor gets no memory.
 absl::StatusOr<std::string> EncodePng(const RgbaImage& image);
 
 // Base64 with padding (RFC 4648, section 4).

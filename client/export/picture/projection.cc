@@ -8,14 +8,14 @@
 namespace bccskel::exporting {
 namespace {
 
-// Of a three-quarter view, degrees.
+// The three-quarter view, in degrees.
 constexpr double kTurn = 30, kClimb = 15;
 
 WorldPoint Combine(double s, const WorldPoint& a, double t, const WorldPoint& b) {
   return {s * a[0] + t * b[0], s * a[1] + t * b[1], s * a[2] + t * b[2]};
 }
 
-// Smallest and largest place along a unit vector.
+// The extent along a unit vector.
 struct Range {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
@@ -71,8 +71,8 @@ WorldBox BoxOf(std::span<const WorldPoint> points) {
 }
 
 Front FrontOf(const WorldBox& box, const std::optional<SliceFacts>& slice) {
-  // Points of one slice are on both of its faces; the box is half a step larger, and half another
-  // is left for rounding. Or what looks as flat.
+  // Points of one slice lie on both of its faces; the box is half a step larger, and another half
+  // is left for rounding. Boxes that look as flat count, too.
   constexpr double kMoreSteps = 1.5, kFlat = 0.02;
   const double x = box.high[0] - box.low[0], y = box.high[1] - box.low[1];
   const double z = box.high[2] - box.low[2];

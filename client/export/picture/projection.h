@@ -11,7 +11,7 @@
 
 namespace bccskel::exporting {
 
-// Where a viewer stands: three orthonormal world vectors.
+// The direction of a view: three orthonormal world vectors.
 struct View {
   WorldPoint right;
   WorldPoint up;
@@ -24,7 +24,7 @@ struct WorldBox {
   WorldPoint high;
 };
 
-// Spheres of one radius in the world: what a picture must contain.
+// Spheres of equal radius in the world that a picture must contain.
 struct Spheres {
   std::span<const WorldPoint> centers;
   double radius;
@@ -43,7 +43,7 @@ struct PanelPoint {
   double depth;
 };
 
-// Parallel projection that fills a panel with what it shows.
+// Parallel projection that fits the shown spheres to a panel.
 class Projection {
  public:
   // Needs: at least one center, a radius > 0, the panel larger than twice the margin.
@@ -61,35 +61,34 @@ class Projection {
   double middle_up_;
 };
 
-// The smallest box around some points; at the origin around none.
+// The bounding box of the points; a box at the origin if there are none.
 WorldBox BoxOf(std::span<const WorldPoint> points);
 
-// What an object of an image says about its first view.
+// Facts about an image that determine the first view of its object.
 struct SliceFacts {
   double step;            // between lattice points along z, in world units
   int slabs;              // steps in a slice
-  std::string_view axes;  // what those of the world point to: "RAS", ...; may be unknown
+  std::string_view axes;  // where the world's axes point: "RAS", ...; may be unknown
 };
 
-// Where pictures begin.
+// The first view of an object.
 struct Front {
   View view;
-  double turn;   // degrees, as those of ViewFrom(), by which the first picture is off
+  double turn;   // degrees, as in ViewFrom(), from the front to the first picture
   double climb;  // the front
 };
 
-// A three-quarter view on the broadest side of the box; up is +y, or +z when y is the thinnest
-// axis. An object of an image (`slice` is known) that is as thin as one slice along z is looked at
-// as programs show images: straight, x to the right, and y down unless it points to the anterior.
+// A three-quarter view of the broadest side of the box; up is +y, or +z when y is the thinnest
+// axis. An object of an image (`slice` is known) that is one slice thick along z is seen as
+// programs show images: straight, x to the right, and y down unless it points to the anterior.
 // Needs: a box no more than half a step larger than the points.
 Front FrontOf(const WorldBox& box, const std::optional<SliceFacts>& slice);
 
-// The front after a walk of `turn` degrees around the object to the right and a climb of `climb`
-// degrees.
+// The view after moving `turn` degrees to the right around the object and `climb` degrees up.
 View ViewFrom(const View& front, double turn, double climb);
 
-// The first view, then another one from the side, then one from above or, of a front that is
-// straight, three quarters.
+// The first view, one from the side, and one from above or, for a straight front, a three-quarter
+// view.
 std::array<View, 3> ViewsOf(const Front& front);
 
 }  // namespace bccskel::exporting

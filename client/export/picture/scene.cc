@@ -26,7 +26,7 @@ Scene SceneOf(const Subject& subject) {
   }
   if (scene.surface.empty()) scene.surface.push_back(placement.origin);
   scene.box = {scene.surface.front(), scene.surface.front()};
-  // By as much along all axes, so that the broadest side stays the broadest.
+  // By the same amount along all axes, so that the broadest side stays the broadest.
   for (const WorldPoint& p : scene.surface) Include(scene.box, p, placement.spacing[2] / 2);
   scene.curves = DisplayCurvesOf(subject.result.graph);
   scene.radii = RadiusRangeOf(subject.result.graph);

@@ -10,11 +10,11 @@
 
 namespace bccskel::exporting {
 
-// What all views of a picture share.
+// The contents of all views of a picture.
 struct Scene {
   std::vector<WorldPoint> surface;  // at least one point
-  WorldBox box;                     // around the surface, half a step along z larger
-  double point_spacing;             // world units between D8 neighbors, by the largest spacing
+  WorldBox box;                     // around the surface, larger by half a step along z
+  double point_spacing;  // distance of D8 neighbors in world units, by the largest spacing
   std::vector<DisplayCurve> curves;
   RadiusRange radii;
 };

@@ -12,7 +12,7 @@
 namespace bccskel::exporting {
 namespace {
 
-// So often a picture may be covered before it pays to find out what is hidden.
+// Above this many layers over a picture it pays to remove hidden points.
 constexpr double kMostLayers = 8;
 constexpr float kEmpty = -std::numeric_limits<float>::infinity();
 
@@ -32,7 +32,7 @@ class DepthMap {
   }
   bool Covered(int x, int y) const { return At(x, y) != kEmpty; }
 
-  // Lays a sphere over the pixels around a point.
+  // Draws a sphere around a point.
   void AddSphere(const PanelPoint& p, double radius) {
     const int low_x = std::max(0, static_cast<int>(std::ceil(p.x - radius)));
     const int low_y = std::max(0, static_cast<int>(std::ceil(p.y - radius)));
@@ -66,7 +66,7 @@ class DepthMap {
     depth = std::max(depth, static_cast<float>(p.depth + std::sqrt(rest)));
   }
 
-  // Binomial weights: strides of 1, 2, 4, ... together make a smooth bell.
+  // Binomial weights: strides of 1, 2, 4, ... together approximate a Gaussian.
   float MeanAround(int x, int y, int stride, float largest_step) const {
     const float here = At(x, y);
     float sum = 0, total = 0;
@@ -93,7 +93,7 @@ struct Normal {
   float z;
 };
 
-// Slope along one axis from the neighbors on the same piece of surface; steep where there is none.
+// Slope along one axis from the neighbors on the same piece of surface; steep if there are none.
 float SlopeOf(float before, float here, float after, float largest_step) {
   const bool has_before = std::abs(here - before) <= largest_step;
   const bool has_after = std::abs(after - here) <= largest_step;
@@ -111,7 +111,7 @@ Normal NormalAt(const DepthMap& depth, int x, int y, float largest_step) {
   return {-right / length, down / length, 1 / length};
 }
 
-// How much of the pixel the object covers, its outline smoothed over `reach` pixels.
+// The part of each pixel that the object covers, its outline smoothed over `reach` pixels.
 class Coverage {
  public:
   Coverage(const DepthMap& depth, int reach) : depth_(depth), width_(depth.width()) {
@@ -188,7 +188,7 @@ RgbaImage Shade(const DepthMap& depth, const Coverage& coverage, float largest_s
 }  // namespace
 
 std::vector<PanelPoint> NearestOfEachPlace(std::span<const PanelPoint> points) {
-  constexpr double kPlaces = 4096;  // in a pixel: what differs by less was rounded
+  constexpr double kPlaces = 4096;  // per pixel: smaller differences are rounding errors
   struct Place {
     int64_t x, y;
     double behind;
@@ -224,7 +224,7 @@ RgbaImage RenderSurface(std::span<const PanelPoint> surface, double point_radius
   }
   for (const PanelPoint& p : surface) depth.AddSphere(p, radius);
   // Averaging over about three point radii hides the lattice. Wide strides leave steps beside
-  // outlines, so narrow ones come last, and often.
+  // outlines, so narrow ones follow, several times.
   const auto largest_step = static_cast<float>(4 * radius);
   const auto widest = std::bit_floor(static_cast<unsigned>(std::clamp(radius, 2.0, 16.0)));
   for (unsigned stride = widest; stride > 1; stride /= 2) {

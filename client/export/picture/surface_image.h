@@ -23,8 +23,8 @@ struct RgbaImage {
 RgbaImage RenderSurface(std::span<const PanelPoint> surface, double point_radius, uint32_t width,
                         uint32_t height);
 
-// Of points that hide each other, as spheres of one radius, the nearest. Seen along an axis, few
-// points of a long object are left, each of which covers much of the picture.
+// Of points that hide each other, as spheres of one radius, keeps the nearest. Seen along an axis,
+// few points of a long object remain, each of which covers much of the picture.
 std::vector<PanelPoint> NearestOfEachPlace(std::span<const PanelPoint> points);
 
 }  // namespace bccskel::exporting

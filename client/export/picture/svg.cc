@@ -26,7 +26,7 @@ constexpr double kWidth = 1240, kHeight = 860;
 constexpr double kPixelsPerUnit = 1.5;  // of the glass images
 constexpr double kMargin = 26;
 
-// Where a view goes on the sheet.
+// The position of a view in the picture.
 struct Panel {
   double x;
   double y;
@@ -58,7 +58,7 @@ struct Stroke {
   double depth;
 };
 
-// Cuts a curve where its color changes, and so often that strokes can be sorted by depth.
+// Cuts a curve where its color changes, and often enough that strokes can be sorted by depth.
 void AppendStrokes(const DisplayCurve& curve, const Scene& scene, const Projection& projection,
                    std::vector<Stroke>& strokes) {
   constexpr size_t kLongest = 12;
@@ -104,8 +104,8 @@ struct ColoredDot {
   int color;
 };
 
-// The points of sheets, the nearest last. Dots of one color that follow each other are one path of
-// lines without length.
+// The points of sheets, the nearest last. Consecutive dots of one color form one path of lines
+// without length.
 void AddSheets(Text& svg, const SkeletonGraph& graph, const RadiusRange& radii,
                const Projection& projection, double width) {
   std::vector<ColoredDot> dots;
@@ -140,7 +140,7 @@ std::string_view NodeStyle(NodeKind kind) {
 
 void AddNodes(Text& svg, const SkeletonGraph& graph, const Projection& projection, double radius) {
   for (const SkeletonNode& node : graph.nodes) {
-    if (node.kind == NodeKind::kLoop) continue;  // only stands for its curve
+    if (node.kind == NodeKind::kLoop) continue;  // represents its curve only
     const PanelPoint p = projection.Project(graph.PositionOf(node.at));
     svg.Add("<circle cx=\"", Rounded(p.x), "\" cy=\"", Rounded(p.y), "\" r=\"", Rounded(radius),
             "\" stroke-width=\"", Rounded(radius / 3), "\" ", NodeStyle(node.kind), "/>\n");

@@ -19,7 +19,7 @@ struct ArrayView {
   std::array<int64_t, 3> strides = {};  // bytes; any sign
 };
 
-// An array as an image. Slices that lie in one piece are not copied, others one at a time.
+// An array as an image. Does not copy contiguous slices; copies others one at a time.
 class ArraySource final : public ImageSource {
  public:
   // Errors: as SizeOfAxes().

@@ -14,7 +14,7 @@
 namespace bccskel::python {
 namespace {
 
-// The threads of one call here; conversions are done here even for a server.
+// The threads of one call on this machine, which also converts the input for a server.
 class Here {
  public:
   explicit Here(const Run& run) : team_(run.threads, run.stop) {
@@ -65,8 +65,7 @@ absl::StatusOr<Outcome> OutcomeOf(Volume object, const SkeletonizeOptions& optio
   return outcome;
 }
 
-// Takes the mask's own topology into the certificate, and what there is to say of it into the
-// warnings.
+// Adds the mask's own topology to the certificate, and notes on it to the warnings.
 absl::Status Certify(const cli::ImageStage& image, const MaskOptions& options, Outcome& outcome) {
   Certificate& certificate = outcome.result.certificate;
   certificate.mask = image.mask;

@@ -24,7 +24,7 @@
 
 namespace bccskel::python {
 
-// A skeleton and what it was made from.
+// A skeleton and the input that it was made from.
 struct Outcome {
   SkeletonizeResult result;
   std::optional<RootChoice> root;
@@ -33,13 +33,13 @@ struct Outcome {
   std::shared_ptr<const Volume> object;  // none for a label
   std::optional<MaskGrid> grid;          // of a mask or a label
   MaskOptions mask;
-  // The voxels of a label, where it was computed here; those of a mask are found in its object.
+  // The voxels of a label that was computed here; the object of a mask implies its voxels.
   std::shared_ptr<const LabeledObject> label;
 
-  // Of a result that was read from JSON, how it was made; its graph is that of `result`.
+  // For a result read from JSON: how it was made; its graph is that of `result`.
   std::optional<view::ResultGraph> read;
 
-  // Errors: UNIMPLEMENTED for a label that a server has computed, and a result that was read.
+  // Errors: UNIMPLEMENTED for a label that a server has computed and for a result read from JSON.
   absl::StatusOr<std::shared_ptr<const Volume>> Object() const;
 };
 
@@ -50,16 +50,16 @@ using OnProgress = std::function<void(uint64_t done, uint64_t total)>;
 
 // Where and how a skeleton is computed, apart from its options.
 struct Run {
-  std::shared_ptr<client::SkeletonizeClient> server;  // none: here
+  std::shared_ptr<client::SkeletonizeClient> server;  // null: on this machine
   int threads = 0;                                    // 0: all of the machine
   std::chrono::milliseconds timeout = std::chrono::hours(24 * 365);
   std::stop_token stop;
   OnProgress on_progress;  // shells, or labels
 };
 
-// Errors: as ConvertImage(), Skeletonize() and CheckRootChoice(); INVALID_ARGUMENT where no voxel
-//         has a wanted label; INTERNAL where an exact conversion changed the topology, which would
-//         be a defect.
+// Errors: as ConvertImage(), Skeletonize() and CheckRootChoice(); INVALID_ARGUMENT if no voxel has
+//         a requested label; INTERNAL if an exact conversion changed the topology, which would be a
+//         defect.
 absl::StatusOr<Outcome> SkeletonizeMask(ImageSource& mask,
                                         const cli::SkeletonizeArguments& arguments, const Run& run);
 

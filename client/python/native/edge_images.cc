@@ -28,7 +28,7 @@ absl::Status CheckVoxels(const Outcome& outcome) {
   return absl::UnimplementedError("of a label that a server has computed, use image == label");
 }
 
-// An exact conversion puts the odd points into the centers of the parts of voxels.
+// In an exact conversion the odd points are the centers of the parts of voxels.
 absl::StatusOr<LabeledObject> VoxelsOf(const Volume& object, const MaskGrid& grid,
                                        VoxelPoints points, const exec::Context& context) {
   const VoxelParts parts = PartsOf(grid, points);

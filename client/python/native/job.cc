@@ -11,7 +11,7 @@ namespace {
 
 namespace py = pybind11;
 
-// How long Ctrl-C may have to wait.
+// The longest delay of Ctrl-C.
 constexpr std::chrono::milliseconds kPatience(50);
 
 PyObject* ExceptionFor(absl::StatusCode code) {
@@ -38,7 +38,7 @@ PyObject* ExceptionFor(absl::StatusCode code) {
   }
 }
 
-// Hands on what the job says until it is done. Throws py::error_already_set.
+// Passes on the job's progress until it is done. Throws py::error_already_set.
 void Attend(Job& job, const py::object& progress) {
   Job::News news;
   while (!news.finished) {

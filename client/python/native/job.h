@@ -18,7 +18,7 @@
 
 namespace bccskel::python {
 
-// What the thread of a job and the Python thread that waits for it tell each other.
+// The communication of a job's thread with the Python thread that waits for it.
 class Job {
  public:
   struct Progress {
@@ -29,11 +29,11 @@ class Job {
   std::stop_token stop() const { return stop_.get_token(); }
   void RequestStop() { stop_.request_stop(); }
 
-  // On the job's thread. A report that has not been delivered is replaced by the next.
+  // Called on the job's thread. A new report replaces an undelivered one.
   void Report(const Progress& progress);
   void Finish();
 
-  // The news until `patience` is over or the job is done, whether or not there are any.
+  // News so far; empty if there is none after `patience`.
   struct News {
     std::optional<Progress> progress;
     bool finished = false;
@@ -53,7 +53,7 @@ class Job {
 // Throws: the error of the work as ThrowIfError() does.
 void RunJob(const pybind11::object& progress, const std::function<absl::Status(Job&)>& work);
 
-// The exception of Python's that fits an error: ValueError for INVALID_ARGUMENT, and so on.
+// Throws the Python exception for an error: ValueError for INVALID_ARGUMENT, and so on.
 void ThrowIfError(const absl::Status& status);
 template <typename T>
 T Value(absl::StatusOr<T> value) {

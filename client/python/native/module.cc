@@ -22,8 +22,8 @@
 #include "core/io/volume_file.h"
 #include "core/version/version.h"
 
-// What the Python files of this package call: coordinates in the order x, y, z, arrays in the order
-// [z, y, x], options as texts.
+// The functions that the package's Python files call: coordinates in the order x, y, z, arrays in
+// the order [z, y, x], options as texts.
 
 namespace bccskel::python {
 namespace {
@@ -58,7 +58,7 @@ ArrayView ViewOf(const py::array& array) {
   return view;
 }
 
-// How a call runs, from Python.
+// The settings of a call from Python.
 struct Call {
   Server server;
   int threads = 0;
@@ -152,7 +152,7 @@ py::array_t<int32_t> PointsOf(const Volume& volume) {
   return array;
 }
 
-// Needs for a server: an array of unsigned numbers in one piece.
+// Needs, for a server: a contiguous array of unsigned numbers.
 LabelOutcomes Labels(const py::array& array, const Placement& placement, const Options& options,
                      const Call& call) {
   const auto arguments = Value(cli::ReadLabelsOptions(Named(options)));
@@ -198,7 +198,7 @@ py::tuple ReadImage(const std::string& path, const Options& options) {
   return py::make_tuple(array, info.placement, info.unit, info.world);
 }
 
-// (outcome, world, unit); the texts are empty where the document does not say.
+// (outcome, world, unit); the texts are empty if the document does not state them.
 py::tuple ReadJson(const std::string& path) {
   const auto outcome = std::make_shared<Outcome>();
   RunJob(py::none(), [&](Job&) -> absl::Status {
@@ -296,7 +296,7 @@ void AddFunctions(py::module_& module) {
 }  // namespace bccskel::python
 
 PYBIND11_MODULE(_native, module) {
-  // Debian's build of gRPC's locks looks for deadlocks at every one of them.
+  // Debian's build of Abseil looks for deadlocks at every lock.
   absl::SetMutexDeadlockDetectionMode(absl::OnDeadlockCycle::kIgnore);
   module.attr("__version__") = std::string(bccskel::Version());
   bccskel::python::AddSkeletonClass(module);

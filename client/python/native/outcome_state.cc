@@ -147,7 +147,7 @@ std::optional<view::ResultGraph> ReadOfState(const py::object& state,
 py::dict StateOf(const Outcome& outcome) {
   py::dict state;
   state["result"] = py::bytes(Value(client::ToBytes(outcome.result)));
-  state["sampled"] = outcome.result.certificate.sampled;  // which servers tell by an option
+  state["sampled"] = outcome.result.certificate.sampled;  // which servers report as an option
   state["root"] = StateOfRoot(outcome.root);
   state["warnings"] = outcome.warnings;
   state["voxels"] = outcome.voxels;

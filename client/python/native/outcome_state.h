@@ -9,10 +9,10 @@
 
 namespace bccskel::python {
 
-// Everything that an outcome holds as bytes, numbers and texts, for `pickle`.
+// The content of an outcome as bytes, numbers and texts, for `pickle`.
 pybind11::dict StateOf(const Outcome& outcome);
-// Throws what absl::StatusCode::kDataLoss becomes, KeyError or TypeError for a state that StateOf()
-// does not make.
+// Throws the exception for DATA_LOSS, KeyError or TypeError for a state that StateOf() does not
+// produce.
 std::shared_ptr<Outcome> OutcomeOfState(const pybind11::dict& state);
 
 }  // namespace bccskel::python

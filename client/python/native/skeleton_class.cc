@@ -85,7 +85,7 @@ py::dict FiguresDict(const SkeletonGraph& graph, const std::vector<EdgeFigures>&
   return dict;
 }
 
-// Of all edges: the ends, and the curves and radii one after the other, cut at `offsets`.
+// All edges: their ends, and their curves and radii concatenated, split at `offsets`.
 py::dict EdgesOf(const SkeletonGraph& graph) {
   std::vector<WorldPoint> points;
   std::vector<double> radii;
@@ -127,7 +127,7 @@ py::dict BettiDict(const BettiNumbers& betti) {
   return dict;
 }
 
-// As in a JSON result, and whether all was kept.
+// As in a JSON result, and whether the topology was kept.
 py::dict CertificateDict(const Certificate& certificate) {
   py::dict dict;
   dict["topology_kept"] = certificate.TopologyKept() && certificate.MaskKept();
@@ -140,7 +140,7 @@ py::dict CertificateDict(const Certificate& certificate) {
   return dict;
 }
 
-// The number that the whole text is, or the text.
+// A number if the whole text is one, else the text.
 py::object NumberOrText(const std::string& text) {
   double number = 0;
   if (absl::SimpleAtod(text, &number)) return py::float_(number);
@@ -184,7 +184,7 @@ std::optional<TreeOrder> TreesOf(const Outcome& outcome) {
   return OrderTrees(outcome.result.graph, *outcome.root);
 }
 
-// The places in the trees; None where none were asked for.
+// The positions in the trees; None if none were requested.
 py::object OrderOf(const Outcome& outcome) {
   const std::optional<TreeOrder> trees = TreesOf(outcome);
   if (!trees.has_value()) return py::none();
@@ -201,7 +201,7 @@ py::object OrderOf(const Outcome& outcome) {
   return dict;
 }
 
-// What a file says besides the skeleton.
+// What a file states besides the skeleton.
 struct Saying {
   std::string title;
   exporting::World world;

@@ -6,7 +6,7 @@
 namespace bccskel::python {
 
 // Adds the class of results: numpy arrays in the order x, y, z, facts as plain Python values, and
-// writing of files.
+// functions that write files.
 void AddSkeletonClass(pybind11::module_& module);
 
 }  // namespace bccskel::python

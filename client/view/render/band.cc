@@ -19,7 +19,7 @@ Span SpanOf(float low, float high, int first, int count) {
 
 using Weights = std::array<float, 3>;
 
-// Of what the corners of a triangle have.
+// The weighted mean of a triangle's corners.
 std::array<float, 3> Mean(const std::vector<std::array<float, 3>>& of,
                           const SurfaceTriangle& triangle, const Weights& weights) {
   std::array<float, 3> mean = {};
@@ -46,7 +46,7 @@ void Band::Draw(const Geometry& geometry) {
 }
 
 // Calls visit(index, depth, weights) for each sample that a triangle covers: its depth there and
-// how much each corner counts.
+// the weights of the corners.
 template <typename Visit>
 void Band::ForEachSample(const SurfaceMesh& mesh, const SurfaceTriangle& triangle,
                          Visit visit) const {

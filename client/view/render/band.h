@@ -11,14 +11,14 @@ namespace bccskel::view {
 
 using ViewNormal = std::array<float, 3>;  // to the right, up, to the viewer
 
-// The skeleton's sheets. Vertices as those of Geometry::glass.
+// The skeleton's sheets. Vertices as in Geometry::glass.
 struct SheetGeometry {
   SurfaceMesh mesh;
-  std::vector<ViewNormal> normals;  // one per vertex, of either side
+  std::vector<ViewNormal> normals;  // one per vertex, of either orientation
   std::vector<LinearColor> colors;  // one per vertex
 };
 
-// What all bands of a picture show, in sample coordinates.
+// The contents of all bands of a picture, in sample coordinates.
 struct Geometry {
   SurfaceMesh glass;  // vertices: x to the right, y up from the top edge (negative), depth
   std::vector<ViewNormal> normals;  // one per vertex
@@ -26,7 +26,7 @@ struct Geometry {
   SheetGeometry sheets;
 };
 
-// A piece of surface behind a sample. Needs care: nothing is there while `depth` is infinite.
+// The surface at a sample. `depth` is infinite if there is none.
 struct Hit {
   float depth;
   ViewNormal normal;

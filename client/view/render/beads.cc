@@ -37,7 +37,7 @@ class Stringer {
   }
 
   void AddNode(const ResultDocument::Node& node) {
-    if (node.kind == "loop") return;  // only stands for its curve
+    if (node.kind == "loop") return;  // represents its curve only
     const LinearColor& color = node.kind == "end"        ? kEndColor
                                : node.kind == "junction" ? kJunctionColor
                                                          : kOtherColor;

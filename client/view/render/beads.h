@@ -23,16 +23,16 @@ struct Bead {
 
 exporting::RadiusRange RadiusRangeOf(const ResultDocument& result);
 
-// As beads and sheets are colored.
+// The color of beads and sheets of this radius.
 LinearColor ColorOf(double radius, const exporting::RadiusRange& range);
 
 inline constexpr LinearColor kEndColor = {0.06f, 0.72f, 0.51f};
 inline constexpr LinearColor kJunctionColor = {0.12f, 0.16f, 0.22f};
 inline constexpr LinearColor kOtherColor = {0.01f, 0.52f, 0.78f};
 
-// The skeleton as strings of beads that overlap so much that they look like tubes, colored by
+// The skeleton as strings of beads that overlap so closely that they look like tubes, colored by
 // radius, with a larger bead per node.
-// Units: `thickness`, the radius of a tube, in those of the projection.
+// Units: `thickness`, the radius of a tube, in units of the projection.
 std::vector<Bead> BeadsOf(const ResultDocument& result, const exporting::Projection& projection,
                           double thickness);
 

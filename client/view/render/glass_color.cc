@@ -6,17 +6,17 @@
 namespace bccskel::view {
 namespace {
 
-// Light that falls on a surface from the upper left, before the viewer.
+// Light on a surface from a lamp at the upper left in front of it.
 struct Light {
   float diffuse;
   float gleam;   // the lamp's reflection
-  float facing;  // 1 where the surface faces the viewer, 0 at outlines
+  float facing;  // 1 if the surface faces the viewer, 0 at outlines
 };
 
 Light LightOn(ViewNormal n, float sharpness) {
   constexpr ViewNormal kLamp = {-0.45f, 0.65f, 0.61f};
   const float length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-  const float sign = n[2] < 0 ? -1.0f : 1.0f;  // a far side is seen from within
+  const float sign = n[2] < 0 ? -1.0f : 1.0f;  // a far side is seen from inside
   if (length > 0) {
     for (float& part : n) part *= sign / length;
   }
@@ -30,7 +30,7 @@ void Cover(LinearColor& below, const LinearColor& above, float opacity) {
   for (size_t n = 0; n < 3; ++n) below[n] += part * (std::min(1.0f, above[n]) - below[n]);
 }
 
-// `body` is how much is seen of glass that faces the viewer.
+// `body` is the opacity of glass that faces the viewer.
 void CoverWithGlass(LinearColor& below, const ViewNormal& normal, float body) {
   constexpr LinearColor kTint = {0.47f, 0.61f, 0.80f};
   const Light light = LightOn(normal, 30);

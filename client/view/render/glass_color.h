@@ -7,8 +7,8 @@ namespace bccskel::view {
 
 inline constexpr LinearColor kPaperColor = {0.973f, 0.980f, 0.988f};
 
-// What is seen at a sample: paper, the object's far side, the skeleton, the object's near side, one
-// over the other.
+// The color of a sample: the paper, the object's far side, the skeleton and the object's near side,
+// composited in this order.
 LinearColor ColorAt(const Band& band, int x, int row);
 
 }  // namespace bccskel::view

@@ -26,7 +26,7 @@ namespace {
 constexpr int kSamplesPerPixel = 3;  // along each axis
 constexpr int kBandRows = 16;        // pixels
 
-// Room for the words above and below the object, in units of a font's size.
+// Space for text above and below the object, in font sizes.
 constexpr double kWordsAbove = 6, kWordsBelow = 4;
 double FontSize(const PictureOptions& options) {
   return std::max(11.0, std::min(options.width, options.height) / 56.0);
@@ -66,7 +66,7 @@ exporting::Projection ProjectionOf(const ResultDocument& result, const DisplaySu
       kSamplesPerPixel * FontSize(options));
 }
 
-// Many curves must be thinner to be told apart; as in page/skeleton.js.
+// Many curves must be thinner to stay distinguishable; as in page/skeleton.js.
 double ThinnedBy(const ResultDocument& result, const DisplaySurface& surface) {
   if (surface.vertices.empty()) return 1;
   const auto [low, high] = exporting::BoxOf(surface.vertices);
@@ -76,8 +76,8 @@ double ThinnedBy(const ResultDocument& result, const DisplaySurface& surface) {
   return length > 6 * edge ? std::max(0.35, std::sqrt(6 * edge / length)) : 1;
 }
 
-// Of a mesh whose triangles have no common side: those around a vertex are turned to agree. Not of
-// length 1.
+// Normals of a mesh without consistent orientation: those around a vertex are flipped to agree. Not
+// normalized.
 std::vector<ViewNormal> NormalsOfEitherSide(const SurfaceMesh& mesh) {
   std::vector<ViewNormal> normals(mesh.vertices.size(), ViewNormal{});
   for (const SurfaceTriangle& t : mesh.triangles) {
@@ -131,7 +131,7 @@ Geometry GeometryOf(const ResultDocument& result, const DisplaySurface& surface,
 using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
 using Pen = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;
 
-// Colors of a pixel's samples, averaged, as Cairo wants them.
+// The mean color of a pixel's samples, in Cairo's format.
 uint32_t PixelAt(const Band& band, int x, int row) {
   LinearColor sum = {};
   for (int j = 0; j < kSamplesPerPixel; ++j) {
@@ -174,7 +174,7 @@ absl::Status DrawObject(const Geometry& geometry, cairo_surface_t* image,
   return context.StopStatus();
 }
 
-// Words and a legend around the object.
+// Text and a legend around the object.
 class Words {
  public:
   Words(cairo_t* pen, const PictureOptions& options)
@@ -232,7 +232,7 @@ class Words {
     return extents.x_advance;
   }
 
-  // A line from the left margin on, smaller where it would not fit.
+  // A line of text from the left margin, in a smaller font if it would not fit.
   void WriteFitting(const std::string& words, double y, double scale, const LinearColor& color,
                     cairo_font_weight_t weight) {
     const double width = WidthOf(words, scale, weight);
@@ -240,7 +240,7 @@ class Words {
     Write(words, kMargin * size_, y, scale, color, weight);
   }
 
-  // Returns: where the words end.
+  // Returns the x coordinate of the text's end.
   double Write(const std::string& words, double x, double y, double scale, const LinearColor& color,
                cairo_font_weight_t weight) {
     const double width = WidthOf(words, scale, weight);
@@ -270,7 +270,7 @@ class Words {
   double size_;
 };
 
-// Cairo gives up on text that is not UTF-8, as file names may be.
+// Cairo fails on text that is not UTF-8, such as some file names.
 bool CanWrite(cairo_surface_t* image, const std::string& words) {
   const Pen pen(cairo_create(image), &cairo_destroy);
   cairo_text_extents_t extents;

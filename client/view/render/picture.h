@@ -15,16 +15,16 @@ namespace bccskel::view {
 struct PictureOptions {
   int width = 1200;  // pixels
   int height = 900;
-  // Degrees around the object to the right from its front, exporting::FrontOf(), and up; left out:
-  // those of the front.
+  // Degrees around the object to the right of its front, exporting::FrontOf(), and up; none: those
+  // of the front.
   std::optional<double> turn;
   std::optional<double> climb;
-  std::string title;  // left out if it is not UTF-8
+  std::string title;  // omitted if it is not UTF-8
 };
 
 inline constexpr int kMinPictureSide = 160;
 inline constexpr int kMaxPictureSide = 16384;
-// Of the object's surface; fine enough for a print.
+// Limit for the object's surface; fine enough for print.
 inline constexpr size_t kMostPictureTriangles = 1'000'000;
 
 // A PNG file: the object as tinted glass, its skeleton inside colored by radius, and a legend.
