@@ -69,8 +69,7 @@ absl::StatusOr<std::string> TokenToSend(std::string_view token) {
   if (std::ranges::all_of(inner, [](unsigned char c) { return absl::ascii_isgraph(c); })) {
     return inner;
   }
-  return absl::InvalidArgumentError(
-      "the token has a character within it that is not a visible one of ASCII");
+  return absl::InvalidArgumentError("the token contains a character that is not visible ASCII");
 }
 
 absl::Status CheckEndpoint(const Endpoint& endpoint) {
@@ -92,7 +91,7 @@ absl::Status CheckEndpoint(const Endpoint& endpoint) {
                       IsOfThisMachine(endpoint.address);
   if (secret) return absl::OkStatus();
   return absl::FailedPreconditionError("the token would cross the network to " + endpoint.address +
-                                       " in the clear, as there is no TLS");
+                                       " in the clear, because there is no TLS");
 }
 
 }  // namespace bccskel::client

@@ -68,7 +68,7 @@ class GrpcDurableStub final : public DurableStub {
       return volumes_->FindMissingVolumes(&context, request, &response);
     }));
     if (response.volumes_size() == 1) return response.volumes(0);
-    return absl::DataLossError("the server answered about another number of volumes");
+    return absl::DataLossError("the server's answer is for a different number of volumes");
   }
 
   absl::StatusOr<std::string> Upload(const std::string& upload, Begun begun,

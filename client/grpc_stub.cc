@@ -50,7 +50,8 @@ class SkeletonizeCall final : private UploadCall<v1::SkeletonizeRequest, v1::Ske
 
   absl::StatusOr<SkeletonizeResult> Run(const EncodedVolume& volume) {
     BCCSKEL_RETURN_IF_ERROR(Converse(ConfigRequest(volume, options_), volume.bytes));
-    if (!summary_.has_value()) return absl::DataLossError("the server ended without a summary");
+    if (!summary_.has_value())
+      return absl::DataLossError("the server ended the call without a summary");
     TellTimes();
     return Assemble();
   }

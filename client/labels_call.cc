@@ -50,7 +50,8 @@ v1::SkeletonizeLabelsRequest ConfigRequest(const EncodedLabels& volume,
 
 absl::StatusOr<LabelsReport> LabelsCall::Run(const EncodedLabels& volume) {
   BCCSKEL_RETURN_IF_ERROR(Converse(ConfigRequest(volume, options_), volume.bytes));
-  if (!summary_.has_value()) return absl::DataLossError("the server ended without a summary");
+  if (!summary_.has_value())
+    return absl::DataLossError("the server ended the call without a summary");
   if (summary_->labels() != labels_) {
     return absl::DataLossError(
         absl::StrCat("received ", labels_, " labels, the summary states ", summary_->labels()));

@@ -113,7 +113,7 @@ absl::Status Operations::CheckHealth(const std::string& service, milliseconds ti
                                    HealthRequest(service), response);
   if (!status.ok()) return FromGrpcStatus(status);
   if (IsServing(response)) return absl::OkStatus();
-  return absl::UnavailableError("takes no calls now (NOT_SERVING)");
+  return absl::UnavailableError("accepts no calls now (NOT_SERVING)");
 }
 
 absl::StatusOr<ServerStatus> Operations::GetStatus(milliseconds timeout) {
@@ -123,7 +123,7 @@ absl::StatusOr<ServerStatus> Operations::GetStatus(milliseconds timeout) {
   const grpc::Status status = stubs_->admin->GetServerStatus(&context, {}, &response);
   if (status.error_code() == grpc::StatusCode::UNIMPLEMENTED) {
     return absl::UnimplementedError(
-        "takes no admin calls here: they are at the address that the server was given as "
+        "accepts no admin calls here: they are at the address that the server was given as "
         "--admin-listen");
   }
   if (!status.ok()) return FromGrpcStatus(status);

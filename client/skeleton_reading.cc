@@ -47,7 +47,8 @@ absl::Status SkeletonReading::Add(v1::ReadSkeletonResponse& piece) {
 }
 
 absl::StatusOr<SkeletonizeResult> SkeletonReading::Finish() && {
-  if (!summary_.has_value()) return absl::DataLossError("the server ended without a summary");
+  if (!summary_.has_value())
+    return absl::DataLossError("the server ended the call without a summary");
   BCCSKEL_ASSIGN_OR_RETURN(SkeletonizeResult result, std::move(assembler_).Finish(*summary_));
   if (thin_bytes_.empty()) return result;
   absl::StatusOr<Volume> thin = DecodeVolume(VolumeEncoding::kBricks, thin_bytes_);

@@ -194,7 +194,7 @@ void ConnectionAcceptor::Serve() {
     for (size_t n = 1; n < events.size() && now.ok(); ++n) now = AcceptAll(events[n].fd);
     if (now != seen) {
       Log(now.ok() ? LogLevel::kInfo : LogLevel::kError,
-          now.ok() ? "connections are taken again" : "connections wait",
+          now.ok() ? "connections are accepted again" : "connections wait",
           {{"address", address_}, {"message", std::string(now.message())}});
     }
     seen = now;

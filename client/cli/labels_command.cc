@@ -264,7 +264,7 @@ absl::StatusOr<CollectedLabels> Collect(const LabelsArguments& arguments,
 absl::Status NoLabels(const LabelsArguments& arguments, uint64_t left_out) {
   if (left_out == 0) return NoSuchLabel(arguments.input, arguments.image);
   return absl::InvalidArgumentError(absl::StrFormat(
-      "no wanted label has %d voxels or more (--min-voxels); %s fewer", arguments.min_voxels,
+      "no requested label has %d voxels or more (--min-voxels); %s fewer", arguments.min_voxels,
       exporting::Counted(left_out, "label has", "labels have")));
 }
 

@@ -65,10 +65,11 @@ absl::Status CheckBoxes(const view::ResultDocument& result, const Volume& object
       const double inside = std::min(ball.center[axis] - low, high - ball.center[axis]);
       const double radius = result.border_continues ? 0 : ball.radius;
       if (radius / unit - inside <= slack) continue;
-      return absl::InvalidArgumentError(absl::StrFormat(
-          "is not what the result was made from: there the object reaches %.4g beyond this one's "
-          "box along the axis %c of its grid",
-          radius - inside * unit, "xyz"[axis]));
+      return absl::InvalidArgumentError(
+          absl::StrFormat("is not what the result was made from: the result's object reaches %.4g "
+                          "beyond this one's "
+                          "box along the axis %c of its grid",
+                          radius - inside * unit, "xyz"[axis]));
     }
   }
   return absl::OkStatus();
@@ -85,7 +86,8 @@ absl::Status CheckVolumes(const view::ResultDocument& result, const Volume& obje
   const double there = VolumeOf(result.object_points, *result.placement);
   if (std::max(here, there) <= kMostVolumes * std::min(here, there)) return absl::OkStatus();
   return absl::InvalidArgumentError(absl::StrFormat(
-      "is not what the result was made from: its volume is %.4g, there it is %.4g", here, there));
+      "is not what the result was made from: its volume is %.4g, that of the result's object %.4g",
+      here, there));
 }
 
 }  // namespace
@@ -94,7 +96,7 @@ absl::Status CheckObjectFits(const view::ResultDocument& result, const Volume& o
   if (object.empty() && result.object_points == 0) return absl::OkStatus();
   if (object.empty()) {
     return absl::InvalidArgumentError(
-        "is not what the result was made from: it has no point on that grid");
+        "is not what the result was made from: it has no point on the result's grid");
   }
   BCCSKEL_RETURN_IF_ERROR(CheckBoxes(result, object));
   return CheckVolumes(result, object);
@@ -138,7 +140,7 @@ absl::Status NoSuchLabel(const std::string& path, const ImageArguments& argument
   const auto end =
       std::next(there->begin(), static_cast<ptrdiff_t>(std::min(kShown, there->size())));
   return absl::InvalidArgumentError(
-      none + "; " + exporting::Counted(there->size(), "label is there: ", "labels are there: ") +
+      none + "; the image has " + exporting::Counted(there->size(), "label: ", "labels: ") +
       absl::StrJoin(there->begin(), end, ", ") + (there->size() > kShown ? ", ..." : ""));
 }
 
@@ -169,9 +171,9 @@ absl::StatusOr<std::string> WhyEmpty(const std::string& path, const ImageArgumen
     };
     std::visit([&](const auto values) { std::ranges::for_each(values, add); }, slice.values);
   }
-  if (low > high) return "no voxel is object: all are NaN";
+  if (low > high) return "no voxel belongs to the object: all are NaN";
   const std::string selection = SelectionOf(arguments);
-  if (selection.empty()) return "no voxel is object: all are 0, the background";
+  if (selection.empty()) return "no voxel belongs to the object: all are 0, the background";
   return selection +
          absl::StrFormat(" selects no voxel; values range from %.7g to %.7g", low, high);
 }

@@ -90,7 +90,7 @@ std::string InWords(const std::string& error) {
                         absl::SimpleAtod(given, &value) ? "whole number" : "number");
   }
   if (words.size() == 8 && words[1] == "At" && words[4] == "required") {
-    return absl::StrCat(words[0], " needs ", words[3], " numbers with commas between them, not ",
+    return absl::StrCat(words[0], " needs ", words[3], " numbers separated by commas, not ",
                         words[7]);
   }
   if (words.size() == 5 && words[2] == "required" && words[4] == "missing") {

@@ -33,7 +33,7 @@ absl::Status CheckVolumeOutput(const std::string& path) {
 absl::Status CheckNotInput(const std::string& input, const std::string& output) {
   std::error_code none;
   if (!std::filesystem::equivalent(input, output, none)) return absl::OkStatus();
-  return absl::InvalidArgumentError(output + ": is the input, too, and would be overwritten");
+  return absl::InvalidArgumentError(output + ": is also the input and would be overwritten");
 }
 
 // Each option about making an object is for one kind of input.
@@ -64,8 +64,8 @@ absl::Status CheckImages(const SkeletonizeArguments& arguments) {
   }
   if (arguments.skeletonize.preparing.Wanted()) {
     return absl::InvalidArgumentError(
-        "--branch-image and --curve-image show the voxels as they are, so not with --denoise, "
-        "--fill-cavities, --cut-loops, --min-component, --min-component-volume or "
+        "--branch-image and --curve-image show the original voxels and cannot be combined with "
+        "--denoise, --fill-cavities, --cut-loops, --min-component, --min-component-volume or "
         "--keep-largest");
   }
   const absl::StatusOr<InputKind> kind = InputKindOf(arguments.input, arguments.image);
@@ -143,7 +143,7 @@ absl::Status CheckFetch(const std::string& object, const std::string& output) {
   if (!format.ok()) return format.status();
   if (exporting::ShowsObject(*format) && object.empty()) {
     return absl::InvalidArgumentError(
-        output + ": shows the object, too: name the volume that was submitted with --object");
+        output + ": also shows the object: name the volume that was submitted with --object");
   }
   return CheckNotInput(object, output);
 }

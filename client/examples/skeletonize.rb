@@ -59,7 +59,7 @@ def skeletonize(address, shape, mask)
     kinds.concat(reply.skeleton_chunk.nodes&.kind.to_a) if reply.response == :skeleton_chunk
     return kinds, reply.summary if reply.response == :summary
   end
-  raise 'the server ended without a summary'
+  raise 'the server ended the call without a summary'
 end
 
 path, address = ARGV

@@ -19,7 +19,7 @@ absl::Status ErrnoStatus(const std::string& path) {
   std::error_code ignored;
   if (error == ENOENT && !folder.empty() && !std::filesystem::exists(folder, ignored)) {
     return absl::NotFoundError(message + ": the folder " + folder.substr(0, folder.size() - 1) +
-                               " does not exist; make it first");
+                               " does not exist; create it first");
   }
   return absl::ErrnoToStatus(error, message);
 }

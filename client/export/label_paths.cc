@@ -26,7 +26,7 @@ absl::StatusOr<std::string> MakePathFor(const std::string& path, uint64_t label)
   const std::string folder = PathFor(path.substr(0, slash), label);
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) return absl::ErrnoToStatus(error.value(), "cannot make the folder " + folder);
+  if (error) return absl::ErrnoToStatus(error.value(), "cannot create the folder " + folder);
   return PathFor(path, label);
 }
 

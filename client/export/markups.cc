@@ -72,8 +72,9 @@ void AddCurve(Text& text, const SkeletonGraph& graph, size_t n, const GraphConte
 
 std::string NoteOn(const World& world) {
   if (world.axes == "RAS" || world.axes == "LPS") return "";
-  if (IsTurned(world)) return "the input's world is LAS; written as RAS, x with the other sign";
-  return "the input does not say whether its world is RAS or LPS; written as LPS";
+  if (IsTurned(world))
+    return "the input's world is LAS; written as RAS, with the sign of x reversed";
+  return "the input does not state whether its world is RAS or LPS; written as LPS";
 }
 
 MarkupsDocument WriteMarkups(const SkeletonGraph& graph, const GraphContext& context,

@@ -154,8 +154,8 @@ class Composer {
 std::string NoteOf(const SkeletonGraph& graph, const World& world) {
   std::string note;
   if (!NanometersOf(world.unit).has_value()) {
-    note = world.unit.empty() ? "the input does not say its unit of length"
-                              : "the unit '" + world.unit + "' is no known length";
+    note = world.unit.empty() ? "the input does not state its unit of length"
+                              : "the unit '" + world.unit + "' is not a known unit of length";
     note += "; coordinates are taken for nanometers";
   }
   if (!graph.sheets.empty()) {
@@ -178,7 +178,7 @@ absl::Status CheckInfo(const std::string& info) {
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (text.find(kKind) != text.npos) return absl::OkStatus();
   return absl::AlreadyExistsError("cannot write " + info +
-                                  ": it is there and describes no skeletons");
+                                  ": exists and does not describe skeletons");
 }
 
 }  // namespace
@@ -190,7 +190,7 @@ absl::StatusOr<std::string> WritePrecomputed(const std::string& folder, const Sk
   BCCSKEL_RETURN_IF_ERROR(CheckInfo(path + "/info"));
   BCCSKEL_ASSIGN_OR_RETURN(const auto segments, Composer(graph, options).Run());
   if (::mkdir(path.c_str(), 0777) != 0 && errno != EEXIST) {
-    return absl::ErrnoToStatus(errno, "cannot make the folder " + path);
+    return absl::ErrnoToStatus(errno, "cannot create the folder " + path);
   }
   for (const auto& [label, segment] : segments) {
     BCCSKEL_RETURN_IF_ERROR(

@@ -14,7 +14,7 @@ absl::Status FileFolder::Make() const {
   std::error_code error;
   std::filesystem::create_directories(path_, error);
   if (!error) return absl::OkStatus();
-  return absl::ErrnoToStatus(error.value(), "cannot make the folder " + path_);
+  return absl::ErrnoToStatus(error.value(), "cannot create the folder " + path_);
 }
 
 absl::Status FileFolder::Write(const std::string& name, const ranks::Bytes& bytes) {

@@ -31,7 +31,7 @@ absl::StatusOr<std::string> PackText(std::string_view text) {
   std::string packed(size, '\0');
   const int code = compress2(reinterpret_cast<Bytef*>(packed.data()), &size,
                              reinterpret_cast<const Bytef*>(text.data()), text.size(), 6);
-  if (code != Z_OK) return absl::ResourceExhaustedError("zlib found no memory for a page");
+  if (code != Z_OK) return absl::ResourceExhaustedError("not enough memory to compress a page");
   packed.resize(size);
   return absl::Base64Escape(packed);
 }

@@ -207,8 +207,10 @@ class Reader {
     if (count == 0 || to.radii.size() != count) {
       Complain(place, "an edge with points and as many radii");
     }
-    if (!to.births.empty() && to.births.size() != count) Complain(place, "with a birth a point");
-    if (!to.shifts.empty() && to.shifts.size() != count) Complain(place, "with a shift a point");
+    if (!to.births.empty() && to.births.size() != count)
+      Complain(place, "an edge with as many births as points");
+    if (!to.shifts.empty() && to.shifts.size() != count)
+      Complain(place, "an edge with as many shifts as points");
     if (curve.there) to_.not_on_pages.push_back(stored);
   }
   void Read(const Place& place, ResultDocument::Sheets& to) {
@@ -216,7 +218,7 @@ class Reader {
                Optional("births", to.births));
     if (to.radii.size() != to.points.size()) Complain(place, "points and as many radii");
     if (!to.births.empty() && to.births.size() != to.points.size()) {
-      Complain(place, "with a birth a point");
+      Complain(place, "a set of sheets with as many births as points");
     }
   }
   void Read(const Place& place, Placement& to) {
@@ -352,8 +354,8 @@ class Reader {
 
   void Complain(const Place& place, std::string_view expected) {
     if (!status_.ok()) return;
-    status_ = absl::InvalidArgumentError(absl::StrCat("no JSON result of bccskel: ", place.Name(),
-                                                      " is not ", std::string(expected)));
+    status_ = absl::InvalidArgumentError(absl::StrCat(
+        "not a JSON result of bccskel: ", place.Name(), " is not ", std::string(expected)));
   }
 
   ResultDocument& to_;

@@ -16,7 +16,7 @@ constexpr std::array kKinds = {NodeKind::kEnd, NodeKind::kJunction, NodeKind::kL
 
 absl::Status NoResult(const char* place, const char* expected) {
   return absl::InvalidArgumentError(
-      absl::StrCat("no JSON result of bccskel: ", place, " is not ", expected));
+      absl::StrCat("not a JSON result of bccskel: ", place, " is not ", expected));
 }
 
 // From world coordinates back to lattice points.

@@ -307,7 +307,7 @@ absl::StatusOr<PruningOptions> PruningOf(const v1::SkeletonizeOptions& message,
   if (message.pruning_rule() == v1::PRUNING_RULE_SLOPE && pruning.threshold != 0) {
     return InvalidField(field + ".pruning_threshold",
                         absl::StrCat("margin ", pruning.threshold,
-                                     " of the slope rule, which is no more: give the rule "
+                                     " of the slope rule, which no longer exists: use the rule "
                                      "SIGNIFICANCE and a threshold in half-widths (default 0.45)"));
   }
   if (absl::Status checked = CheckPruningOptions(pruning); !checked.ok()) {
@@ -321,7 +321,7 @@ absl::StatusOr<std::vector<LatticePoint>> FromMessage(const v1::LatticePoints& m
   if (message.y_size() != message.x_size() || message.z_size() != message.x_size()) {
     return InvalidField(
         field, absl::StrCat("columns of ", message.x_size(), ", ", message.y_size(), " and ",
-                            message.z_size(), " rows, must have one length"));
+                            message.z_size(), " rows, must have equal lengths"));
   }
   std::vector<LatticePoint> points;
   points.reserve(static_cast<size_t>(message.x_size()));

@@ -67,7 +67,7 @@ void Ticket::Release() {
 absl::StatusOr<Ticket> Admission::Admit(const std::string& tenant, uint64_t bytes) {
   std::lock_guard lock(mutex_);
   if (!admitting_) {
-    return CallError(Reason::kDraining, "the server is shutting down and takes no new jobs");
+    return CallError(Reason::kDraining, "the server is shutting down and accepts no new jobs");
   }
   BCCSKEL_RETURN_IF_ERROR(Take(tenant, {.bytes = bytes, .places = 1}));
   ++jobs_;
@@ -100,7 +100,7 @@ absl::Status Admission::Take(const std::string& tenant, const Usage& wanted) {
     if (part.usage.places + wanted.places > part.limit.places) {
       const bool is_share = part.limit.places < limits_.places && own.max_jobs == 0;
       return CallError(Reason::kQueueFull,
-                       absl::StrFormat("%d jobs at work or waiting, the limit for %s is %d%s",
+                       absl::StrFormat("%d jobs are running or waiting, the limit for %s is %d%s",
                                        part.usage.places, part.whose, part.limit.places,
                                        is_share ? ", half of what other tenants leave" : ""));
     }

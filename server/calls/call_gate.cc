@@ -76,7 +76,7 @@ absl::Status CheckName(const CallGate::Name& name) {
 
 absl::Status CallFacts::CancelStatus() const {
   if (IsCutOff()) {
-    return CallError(Reason::kDraining, "the server stops and cuts the call off");
+    return CallError(Reason::kDraining, "the server is stopping and aborts the call");
   }
   return Clock::now() >= deadline ? absl::DeadlineExceededError("the call's deadline has passed")
                                   : absl::CancelledError("the caller cancelled the call");
@@ -125,7 +125,7 @@ absl::Status OpenStreams::CheckToken(Entry& entry, uint64_t generation) const {
   if (std::exchange(entry.tokens, generation) == generation) return absl::OkStatus();
   const absl::StatusOr<Caller> caller = callers_.Identify(entry.authorization);
   if (caller.ok() && caller->tenant == entry.tenant) return absl::OkStatus();
-  return CallError(Reason::kTokenInvalid, "the token of this call is accepted no longer");
+  return CallError(Reason::kTokenInvalid, "the token of this call is no longer accepted");
 }
 
 void OpenStreams::LookAfter() {
@@ -174,8 +174,7 @@ absl::StatusOr<CallFacts> CallGate::EnterAsAdmin(const grpc::CallbackServerConte
                                                  const Method& method) const {
   BCCSKEL_ASSIGN_OR_RETURN(CallFacts facts, Enter(context, method));
   if (facts.role == Role::kAdmin) return facts;
-  return Refused(facts,
-                 CallError(Reason::kAdminOnly, "this call is for admins; the token is a tenant's"));
+  return Refused(facts, CallError(Reason::kAdminOnly, "this call needs an admin's token"));
 }
 
 absl::Status Refused(const CallFacts& facts, const absl::Status& status) {

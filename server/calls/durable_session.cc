@@ -132,7 +132,7 @@ class DurableSession final : public SkeletonizeSession,
       taken_over_ = true;
     }
     call_->EndWith(
-        CallError(Reason::kSecondWriter, absl::StrCat("another stream goes on with ", upload_)));
+        CallError(Reason::kSecondWriter, absl::StrCat("another stream has taken over ", upload_)));
   }
 
  private:

@@ -45,7 +45,7 @@ absl::Status RequestSequence::TakeChunk(const v1::VolumeChunk& chunk) {
   BCCSKEL_RETURN_IF_ERROR(CheckExpected(Expected::kBytes, "chunk"));
   if (chunk.offset() != committed_bytes_) {
     return WrongOffset(absl::StrCat("chunk at offset ", chunk.offset(), ", ", committed_bytes_,
-                                    " bytes came so far"),
+                                    " bytes were received so far"),
                        committed_bytes_);
   }
   const size_t size = chunk.data().size();

@@ -50,7 +50,7 @@ absl::Status StorageError(const absl::Status& status) {
   if (status.ok() || StatesReason(status)) return status;
   if (!absl::IsInternal(status)) return WithDiskReason(status);
   Log(LogLevel::kError, "storage failed", {{"message", std::string(status.message())}});
-  return absl::InternalError("the server cannot read or write what it keeps");
+  return absl::InternalError("the server cannot read or write its stored data");
 }
 
 }  // namespace bccskel::server

@@ -63,14 +63,14 @@ class UploadCall final : public UploadBase, public UploadWriters::Writer {
         });
   }
   void OnTakenOver() override {
-    End(CallError(Reason::kSecondWriter, absl::StrCat("another stream goes on with ", upload_)));
+    End(CallError(Reason::kSecondWriter, absl::StrCat("another stream has taken over ", upload_)));
   }
 
  private:
   absl::Status CheckWanted(const v1::UploadVolumeRequest& request) override {
     if (!complete_ || !request.has_chunk()) return absl::OkStatus();
     return CallError(Reason::kUploadFinished,
-                     absl::StrCat(upload_, " is finished and takes no more chunks"));
+                     absl::StrCat(upload_, " is finished and accepts no more chunks"));
   }
 
   absl::Status Take(v1::UploadVolumeRequest& request) override {

@@ -100,7 +100,7 @@ DecodingBudget BudgetFor(const VolumeHeader& header, uint64_t encoded_bytes) {
 
 absl::Status Nonsense() {
   return absl::InvalidArgumentError(
-      "the volume could not be decoded: the decoder's answer is no volume");
+      "the volume could not be decoded: the decoder's answer is not a volume");
 }
 
 // Whether bricks with this header can be the decoded form of the announced volume.

@@ -89,7 +89,7 @@ DurableJobs::~DurableJobs() {
   operations_.WaitForAll();
   loop_.Post([this] {
     if (shared_) loop_.store().Leave().IgnoreError();
-    watches_.EndAll(absl::UnavailableError("the server stops"));
+    watches_.EndAll(absl::UnavailableError("the server is stopping"));
   });
 }
 

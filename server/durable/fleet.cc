@@ -140,7 +140,7 @@ Flow DurableJobs::TakeOverFrom(Member member) {
   if (!status.ok()) co_return;
   if (!steps.empty()) {
     options_.on_warning(absl::StrCat("another server is gone: ", steps.size(),
-                                     " jobs that it ran go on elsewhere"));
+                                     " jobs that it ran continue elsewhere"));
   }
   for (const Step& step : steps) Apply(step);
   QueueWaiting();
@@ -186,7 +186,7 @@ Flow DurableJobs::OpenSession(std::string tenant, std::string upload, Done<Sessi
     return CallError(Reason::kUploadFinished, absl::StrCat(upload, " is finished"));
   });
   if (status.ok() && (!shared_ || !uploads_.BeginOpening(row))) {
-    status = CallError(Reason::kSecondWriter, absl::StrCat(upload, " is being opened just now"));
+    status = CallError(Reason::kSecondWriter, absl::StrCat(upload, " is being opened"));
   }
   if (!status.ok()) co_return done(std::move(status));
   const UploadRow old = row;
@@ -213,7 +213,7 @@ Flow DurableJobs::OpenSession(std::string tenant, std::string upload, Done<Sessi
 absl::Status DurableJobs::StoreMove(JobStore& store, const UploadRow& old, const std::string& to) {
   BCCSKEL_ASSIGN_OR_RETURN(UploadRow now, store.Get<UploadRow>(old.tenant, old.name));
   if (now.file != old.file || !now.volume.empty()) {
-    return CallError(Reason::kSecondWriter, absl::StrCat(now.name, " goes on on another server"));
+    return CallError(Reason::kSecondWriter, absl::StrCat(now.name, " continues on another server"));
   }
   BCCSKEL_RETURN_IF_ERROR(store.Put(RemovalOf(now)));
   now.file = to;
@@ -223,7 +223,7 @@ absl::Status DurableJobs::StoreMove(JobStore& store, const UploadRow& old, const
 absl::Status DurableJobs::Superseded(const Session& session) {
   uploads_.Remove(session);
   return CallError(Reason::kSecondWriter,
-                   absl::StrCat(session->row().name, " goes on on another server"));
+                   absl::StrCat(session->row().name, " continues on another server"));
 }
 
 }  // namespace bccskel::server

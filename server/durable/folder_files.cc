@@ -11,9 +11,10 @@ namespace {
 absl::Status UnknownData(const std::string& folder, size_t files) {
   return absl::FailedPreconditionError(absl::StrCat(
       folder, " holds ", files, " files of uploads, volumes and results that its jobs.db does not ",
-      "know: that is missing, empty or from elsewhere. Nothing was changed. Bring back the "
+      "know: that is missing, empty or from elsewhere. Nothing was changed. Restore the "
       "jobs.db ",
-      "that belongs to them, or start once with --unknown-data adopt to go on without it: files ",
+      "that belongs to them, or start once with --unknown-data adopt to continue without it: "
+      "files ",
       "that no table names are then removed at the first start after a day"));
 }
 
@@ -81,7 +82,7 @@ absl::Status FolderFiles::Join(JobStore& store) {
   if (!files.empty() && options_.unknown_data != "adopt") {
     return absl::FailedPreconditionError(
         absl::StrCat(options_.data_directory, " holds ", files.size(),
-                     " files that this job store does not know: nothing was changed. Take an "
+                     " files that this job store does not know: nothing was changed. Use an "
                      "empty folder, or start once with --unknown-data adopt"));
   }
   return lock_.SetStoreId(id);
@@ -102,7 +103,7 @@ void FolderFiles::SweepAtStart(JobStore& store, const std::set<std::string>& fil
   if (kept == 0) return;
   options_.on_warning(absl::StrCat(
       kept, " files below ", options_.data_directory, " are named by no table and were kept",
-      certain ? "; they go when they are a day old"
+      certain ? "; they are deleted when they are a day old"
               : ": files that are named are missing, or rows are damaged"));
 }
 

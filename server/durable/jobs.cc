@@ -301,8 +301,8 @@ Flow DurableJobs::OpenResult(std::string tenant, std::string job, uint64_t first
       return CallError(Reason::kJobNotSucceeded, absl::StrCat(job, " has no result"));
     }
     if (!result->file.empty()) return *result;
-    return absl::DataLossError(
-        absl::StrCat("the result of ", job, " was damaged: the same job, created again, heals it"));
+    return absl::DataLossError(absl::StrCat(
+        "the result of ", job, " was damaged: create the same job again to recompute it"));
   };
   const absl::StatusOr<ResultRow> found = co_await Read<ResultRow>(read);
   if (!found.ok()) co_return done(found.status());

@@ -8,7 +8,7 @@ namespace bccskel::server {
 
 absl::Status UploadSession::Begin() {
   if (writing_) {
-    return CallError(Reason::kSecondWriter, absl::StrCat(row_.name, " is being written just now"));
+    return CallError(Reason::kSecondWriter, absl::StrCat(row_.name, " is being written"));
   }
   writing_ = true;
   return absl::OkStatus();

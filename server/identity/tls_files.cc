@@ -23,7 +23,7 @@ absl::Status Bad(const std::string& path, const std::string& what) {
 // Errors: INVALID_ARGUMENT if the file holds no certificates.
 absl::StatusOr<SslContext> ContextOf(const std::string& certificate) {
   SslContext context(SSL_CTX_new(TLS_server_method()), SSL_CTX_free);
-  if (context == nullptr) return absl::InternalError("OpenSSL gives no context");
+  if (context == nullptr) return absl::InternalError("OpenSSL cannot create a context");
   if (SSL_CTX_use_certificate_chain_file(context.get(), certificate.c_str()) == 1) return context;
   return Bad(certificate, "cannot be read as a PEM certificate");
 }
@@ -72,7 +72,7 @@ absl::StatusOr<std::chrono::system_clock::time_point> CertificateEnd(const TlsFi
   std::tm end = {};
   const X509* const certificate = SSL_CTX_get0_certificate(context.get());
   if (ASN1_TIME_to_tm(X509_get0_notAfter(certificate), &end) != 1) {
-    return Bad(files.certificate, "does not say when it ends");
+    return Bad(files.certificate, "does not state when it expires");
   }
   return std::chrono::system_clock::from_time_t(timegm(&end));
 }

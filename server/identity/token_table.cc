@@ -53,7 +53,7 @@ absl::StatusOr<std::string> NewToken() {
   Sha256Digest secret;  // for its size and its digits
   const ssize_t got = getrandom(secret.bytes.data(), secret.bytes.size(), 0);
   if (got != static_cast<ssize_t>(secret.bytes.size())) {
-    return absl::UnavailableError("the system gives no random bytes");
+    return absl::UnavailableError("the system provides no random bytes");
   }
   return "bccskel_" + secret.Hex();
 }
@@ -98,7 +98,7 @@ absl::Status TokenTable::AddLine(const std::vector<std::string>& words) {
   BCCSKEL_ASSIGN_OR_RETURN(entry.digest, DigestFromHex(words[1]));
   for (const Entry& other : entries_) {
     if (SameDigest(other.digest, entry.digest)) {
-      return absl::InvalidArgumentError("this token stands in another line, too");
+      return absl::InvalidArgumentError("this token is also in another line");
     }
   }
   tenants_.try_emplace(words[0], TenantLimits{.weight = 0});

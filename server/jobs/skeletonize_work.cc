@@ -112,7 +112,7 @@ class SkeletonizeWork final : public JobWork {
     const uint64_t limit = ShellPointsBytes(request_.shell_points, bricks_);
     if (shell_points_bytes_ <= limit) return absl::OkStatus();
     return CallError(Reason::kShellPointsTooLarge,
-                     absl::StrCat("the points of the shells take more than ", limit,
+                     absl::StrCat("the shell points need more than ", limit,
                                   " bytes, the limit for a volume of ", bricks_, " bricks"));
   }
 

@@ -105,13 +105,13 @@ MetricFamily GaugeNow(const char* name, const char* help, auto value) {
 
 std::vector<MetricFamily> FamiliesOf(const ServerGauges& now) {
   return {
-      GaugeNow("bccskel_jobs_admitted", "Jobs let in that have not ended or are not read yet",
-               now.admitted_jobs),
-      GaugeNow("bccskel_jobs_waiting", "Jobs whose volume is there and that wait for threads",
+      GaugeNow("bccskel_jobs_admitted",
+               "Admitted jobs that have not ended or whose results are unread", now.admitted_jobs),
+      GaugeNow("bccskel_jobs_waiting", "Jobs with a complete volume that wait for threads",
                now.computing.waiting),
-      GaugeNow("bccskel_jobs_running", "Jobs that compute", now.computing.running),
-      GaugeNow("bccskel_threads", "Threads for computing", now.threads),
-      GaugeNow("bccskel_threads_busy", "Threads that compute", now.computing.busy_threads),
+      GaugeNow("bccskel_jobs_running", "Running jobs", now.computing.running),
+      GaugeNow("bccskel_threads", "Compute threads", now.threads),
+      GaugeNow("bccskel_threads_busy", "Busy threads", now.computing.busy_threads),
       GaugeNow("bccskel_memory_admitted_bytes", "Working memory that jobs have reserved",
                now.admitted_bytes),
       GaugeNow("bccskel_memory_limit_bytes", "Working memory that jobs may reserve together",
@@ -127,15 +127,15 @@ std::vector<MetricFamily> FamiliesOf(const DurableUsage& stored) {
       GaugeNow("bccskel_disk_used_bytes", "Volumes, results and declared uploads on disk",
                stored.disk_bytes),
       GaugeNow("bccskel_disk_available_bytes",
-               "What can still be written: up to the limit, or to the end of the file system",
+               "Free bytes up to the limit or the end of the file system",
                stored.disk_available_bytes),
       GaugeNow("bccskel_data_healthy", "0 when the data directory is damaged or gone",
                stored.healthy ? 1 : 0),
-      GaugeNow("bccskel_uploads_unfinished", "Uploads that are not finished", stored.uploads),
-      GaugeNow("bccskel_durable_jobs_queued", "Stored jobs that wait", stored.queued),
-      GaugeNow("bccskel_durable_jobs_running", "Stored jobs that compute", stored.running),
+      GaugeNow("bccskel_uploads_unfinished", "Unfinished uploads", stored.uploads),
+      GaugeNow("bccskel_durable_jobs_queued", "Waiting durable jobs", stored.queued),
+      GaugeNow("bccskel_durable_jobs_running", "Running durable jobs", stored.running),
       Sample(MetricType::Counter, "bccskel_results_reused_total",
-             "Stored jobs that were given a result that was there", stored.cached),
+             "Durable jobs answered from a stored result", stored.cached),
   };
 }
 

@@ -154,7 +154,8 @@ TEST_F(DurableClientTest, GoesOnWithAnUploadUnderItsName) {
 }
 
 TEST_F(DurableClientTest, GoesOnWithAnUploadWhoseOlderBytesCameLate) {
-  DurableClient client = ClientOf({.ends = {absl::OutOfRangeError("9 bytes came so far")}});
+  DurableClient client =
+      ClientOf({.ends = {absl::OutOfRangeError("9 bytes were received so far")}});
   EXPECT_EQ(*client.Upload({}, {}), "volumes/1");
   EXPECT_EQ(asked_.uploads.size(), 2u);
 }

@@ -89,7 +89,7 @@ class ExitCodesTest(harness.TestCase):
 
     def test_8_when_output_cannot_be_written(self):
         volume = self.generate("ball")
-        missing = f": the folder {self.path('no/such/folder')} does not exist; make it first"
+        missing = f": the folder {self.path('no/such/folder')} does not exist; create it first"
         for ending in ("swc", "exr", "bccb", "svg"):
             output = self.path("no/such/folder/a." + ending)
             self.fail_with(8, output + missing, "skeletonize", volume, "--local", "-o", output)

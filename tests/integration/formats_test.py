@@ -316,7 +316,8 @@ class FormatsTest(harness.TestCase):
         refused("a kind of node", lambda d: d["nodes"][0].update(kind="x"))
         refused("nodes[0].loops is not an integer", lambda d: d["nodes"][0].update(loops=-1))
         refused("edges[0].shifts[0][2] is not", lambda d: d["edges"][0].update(shifts=[[1, 2, 40000]]))
-        refused("edges[0] is not with a birth a point", lambda d: d["edges"][0].update(births=[1]))
+        refused("edges[0] is not an edge with as many births as points",
+                lambda d: d["edges"][0].update(births=[1]))
         refused("pruning_level is not", lambda d: d["edges"][0].update(pruning_level="x"))
         refused("preparing[0] is not a step", lambda d: d.update(preparing=[{"step": "x"}]))
         self.fail_with(2, "convert writes .swc", "convert", self.folders / "tree" / "s.json",

@@ -202,10 +202,10 @@ class ImagesTest(harness.TestCase):
     def test_a_label_that_no_voxel_has_is_an_error_that_names_those_there(self):
         ring_file = self.write_ring()
         for command in (("info",), ("skeletonize", "--local", "-o", self.path("s.swc"))):
-            self.fail_with(3, "ring.nrrd: no voxel has the label 7 or 9; 1 label is there: 5",
+            self.fail_with(3, "ring.nrrd: no voxel has the label 7 or 9; the image has 1 label: 5",
                            *command, ring_file, "--label", "9,7")
         numpy.save(self.path("many.npy"), numpy.arange(27, dtype="u2").reshape(3, 3, 3))
-        self.fail_with(3, "26 labels are there: 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, ...",
+        self.fail_with(3, "the image has 26 labels: 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, ...",
                        "info", self.path("many.npy"), "--label", 99)
 
     def test_an_image_without_object_or_without_background_is_explained(self):
@@ -218,8 +218,8 @@ class ImagesTest(harness.TestCase):
                 ("a", ("--below", 0), "--below 0 selects no voxel; values range from 0 to 5"),
                 ("a", ("--range", "6,"), "--range 6, selects no voxel; values range from 0 to 5"),
                 ("full", ("--invert",), "--invert selects no voxel; values range from 1 to 1"),
-                ("zero", (), "no voxel is object: all are 0, the background"),
-                ("nan", ("--invert",), "no voxel is object: all are NaN")):
+                ("zero", (), "no voxel belongs to the object: all are 0, the background"),
+                ("nan", ("--invert",), "no voxel belongs to the object: all are NaN")):
             with self.subTest(warning):
                 summary = self.skeletonize(self.path(name + ".npy"), *rule)
                 self.assertEqual((summary["image"]["warnings"], summary["notes"]),

@@ -111,7 +111,7 @@ class LabelsTest(harness.TestCase):
         self.assertNotIn("cannot make", done.stderr)  # said before the work
         self.assertFalse((self.folder / "missing").exists())
         (self.folder / "cell-3").touch()
-        self.fail_with(8, "cannot make the folder " + self.path("cell-3"), "labels", self.image,
+        self.fail_with(8, "cannot create the folder " + self.path("cell-3"), "labels", self.image,
                        "--label", "3", "-o", self.path("cell-{label}/a.swc"))
 
     def test_the_summary_adds_up_what_preparing_did(self):
@@ -186,7 +186,7 @@ class LabelsTest(harness.TestCase):
                 (("--label", "77", "-o", self.path("a.vtp")), 3,
                  "no voxel has the label 77; "),
                 (("--min-voxels", "1M", "-o", self.path("a.vtp")), 3,
-                 "no wanted label has 1000000 voxels or more (--min-voxels); "),
+                 "no requested label has 1000000 voxels or more (--min-voxels); "),
                 (("--label", "0", "-o", self.path("a.vtp")), 3, "background"),
                 (("-o", self.path("missing/{label}.swc")), 8, "missing")):
             with self.subTest(words):

@@ -59,7 +59,7 @@ TEST(TokenTable, NamesTheLineAndTheFaultButNoDigest) {
         {good + " weight=0", "line 1: weight=0: 0: must be a number from 1 to 1000"},
         {good + " max-jobs", "max-jobs: : must be a number"},
         {good + " colour=red", "line 1: colour=red: must be admin, weight=N"},
-        {good + "\n" + "lab " + hex, "line 2: this token stands in another line, too"},
+        {good + "\n" + "lab " + hex, "line 2: this token is also in another line"},
         {good + " weight=2\n" + TokenLine("acme", kOther) + " weight=3",
          "line 2: weight=3: 3, another line of the same tenant says 2"}}) {
     const absl::Status status = TokenTable::Parse(text).status();

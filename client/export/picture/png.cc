@@ -51,7 +51,7 @@ absl::StatusOr<std::string> Compress(const std::string& bytes) {
   std::string compressed(size, '\0');
   const int code = compress2(reinterpret_cast<Bytef*>(compressed.data()), &size,
                              reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), 6);
-  if (code != Z_OK) return absl::ResourceExhaustedError("zlib found no memory for a picture");
+  if (code != Z_OK) return absl::ResourceExhaustedError("not enough memory to compress a picture");
   compressed.resize(size);
   return compressed;
 }

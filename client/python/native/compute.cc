@@ -87,11 +87,12 @@ absl::Status NoVoxelOf(const std::vector<uint64_t>& labels) {
 absl::StatusOr<std::shared_ptr<const Volume>> Outcome::Object() const {
   if (object != nullptr) return object;
   if (read.has_value()) {
-    return absl::UnimplementedError("pictures and pages show the object, which JSON has not");
+    return absl::UnimplementedError(
+        "pictures and pages show the object, which a JSON result does not contain");
   }
   if (label == nullptr || !grid.has_value()) {
     return absl::UnimplementedError(
-        "pictures and pages show the object, too: of a label that a server has computed, use "
+        "pictures and pages also show the object: for a label that a server has computed, use "
         "skeletonize(image == label)");
   }
   BCCSKEL_ASSIGN_OR_RETURN(ConvertedMask made, ConvertLabel(*grid, *label, mask, {}));
@@ -175,7 +176,7 @@ absl::StatusOr<LabelOutcomes> SkeletonizeOnServer(const client::LabelVolume& ima
                                                   const cli::LabelsArguments& arguments,
                                                   const Run& run) {
   if (arguments.image.mask.sampling.has_value()) {
-    return absl::UnimplementedError("servers convert labels exactly: leave out sampling");
+    return absl::UnimplementedError("servers convert labels exactly: omit sampling");
   }
   client::LabelsCallOptions call;
   call.skeletonize = arguments.skeletonize;

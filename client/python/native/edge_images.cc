@@ -13,7 +13,7 @@ namespace {
 absl::Status CheckVoxels(const Outcome& outcome) {
   if (outcome.read.has_value()) {
     return absl::InvalidArgumentError(
-        "a result that was read from a file does not know the voxels; make it again from the mask");
+        "a result read from a file does not contain the voxels; compute it again from the mask");
   }
   if (!outcome.grid.has_value()) return absl::InvalidArgumentError("a mesh has no voxels to draw");
   if (outcome.mask.sampling.has_value()) {
@@ -21,11 +21,11 @@ absl::Status CheckVoxels(const Outcome& outcome) {
   }
   if (!outcome.result.preparing.empty()) {
     return absl::InvalidArgumentError(
-        "images show the voxels as they are, so not with denoise, fill_cavities, min_component, "
-        "min_component_volume or keep_largest");
+        "images show the original voxels and cannot be combined with denoise, fill_cavities, "
+        "min_component, min_component_volume or keep_largest");
   }
   if (outcome.object != nullptr || outcome.label != nullptr) return absl::OkStatus();
-  return absl::UnimplementedError("of a label that a server has computed, use image == label");
+  return absl::UnimplementedError("for a label that a server has computed, use image == label");
 }
 
 // In an exact conversion the odd points are the centers of the parts of voxels.

@@ -317,7 +317,7 @@ absl::StatusOr<std::string> WriteLabels(const std::string& path, const LabelList
   for (const auto& [label, outcome] : labels) {
     const Outcome& first = *labels.front().second;
     if (outcome->result.graph.placement != first.result.graph.placement) {
-      return absl::InvalidArgumentError("the skeletons are of images that lie elsewhere");
+      return absl::InvalidArgumentError("the skeletons belong to images with different placements");
     }
     all.Add(label, outcome->voxels, outcome->result);
   }

@@ -140,7 +140,7 @@ const Wrong kWrong[] = {
     {"threshold_in_words", "skeletonize a.tif -o a.swc --threshold high",
      "--threshold high: must be a number"},
     {"voxels_of_two_sizes", "skeletonize a.tif -o a.swc --voxel-size 1,2",
-     "--voxel-size: needs 3 numbers with commas between them, not 2"},
+     "--voxel-size: needs 3 numbers separated by commas, not 2"},
     {"voxels_without_size", "skeletonize a.tif -o a.swc --voxel-size 1,0,1",
      "--voxel-size: must be finite and positive, not 0"},
     {"negative_label_of_many", "labels a.tif -o a.vtp --labels -5",

@@ -70,7 +70,7 @@ TEST_F(AtomicFileTest, ReplacesAFile) {
 TEST_F(AtomicFileTest, AFolderThatIsNotThereIsNamed) {
   const std::string folder = folder_ / "a/b", path = folder + "/c.swc";
   EXPECT_EQ(CheckWritable(path).message(),
-            "cannot write " + path + ": the folder " + folder + " does not exist; make it first");
+            "cannot write " + path + ": the folder " + folder + " does not exist; create it first");
   EXPECT_TRUE(absl::IsNotFound(WriteFileAtomically(path, "bytes")));
 }
 

@@ -268,7 +268,7 @@ class LoadTest(unittest.TestCase):
                 server.wait_for_event("connections wait")
             self.assertEqual(skeletonize(server.address).summary.certificate.skeleton.loops, 1)
             self.assertEqual(server.stop(), 0)
-            self.assertIn("connections are taken again", server.log_text())
+            self.assertIn("connections are accepted again", server.log_text())
 
 
 class StopTest(unittest.TestCase):
