@@ -26,12 +26,12 @@ CALL_S, STREAM_S = 60, 3600
 ENDED = (jobs.JOB_STATE_SUCCEEDED, jobs.JOB_STATE_FAILED, jobs.JOB_STATE_CANCELLED)
 
 
-# OUT_OF_RANGE: bytes of a broken stream came after the question how many there are.
+# OUT_OF_RANGE: bytes of a broken stream arrived after the query of their number.
 AGAIN = (grpc.StatusCode.UNAVAILABLE, grpc.StatusCode.OUT_OF_RANGE)
 
 
 def patiently(attempt, patience_s=120, again=AGAIN[:1]):
-    """Tries again while the server is away or busy; everything here may be repeated."""
+    """Retries while the server is unavailable or busy; every call here may be repeated."""
     give_up, pause = time.monotonic() + patience_s, 0.1
     while True:
         try:
@@ -44,7 +44,7 @@ def patiently(attempt, patience_s=120, again=AGAIN[:1]):
 
 
 def upload_requests(upload, declaration, data, offset):
-    """Config, what the server does not have, finish."""
+    """Config, the bytes that the server does not have, finish."""
     yield volumes.UploadVolumeRequest(config=volumes.UploadVolumeConfig(
         upload=upload, volume=declaration))
     for at in range(offset, len(data), CHUNK_BYTES):
@@ -65,7 +65,7 @@ def committed_size(stub, upload):
 
 
 def send_volume(channel, declaration, data, upload=None):
-    """The volume's name. Sends nothing that the server has."""
+    """The volume's name. Sends only what the server does not have."""
     stub = volumes_grpc.VolumeServiceStub(channel)
     key = volumes.VolumeKey(declaration=declaration, blob_sha256=hashlib.sha256(data).digest())
     found = patiently(lambda: stub.FindMissingVolumes(
@@ -93,7 +93,7 @@ def create_job(channel, volume, **wanted):
 
 
 def watch(channel, job, after_sequence=0):
-    """Events until the job has ended, over breaks."""
+    """Events until the job has ended, across broken connections."""
     stub, known = jobs_grpc.JobServiceStub(channel), after_sequence
     ended = False
     while not ended:
@@ -112,7 +112,7 @@ def watch(channel, job, after_sequence=0):
 
 
 def read_skeleton(channel, job):
-    """The result of a job that succeeded, over breaks."""
+    """The result of a job that succeeded, across broken connections."""
     columns = empty_columns()
     stub, pieces, summary = jobs_grpc.JobServiceStub(channel), 0, None
 
@@ -139,7 +139,7 @@ def main():
         with grpc.insecure_channel(arguments.server) as channel:
             job = create_job(channel, send_volume(channel, declaration, data))
             print(job)
-        # The connection is gone; the job is not.
+        # The connection is lost, but the job continues.
         with grpc.insecure_channel(arguments.server) as channel:
             for event in watch(channel, job):
                 if event.HasField("state_change"):

@@ -36,7 +36,7 @@ class Skeleton:
     node: np.ndarray   # per node: lattice point, shape (nodes, 3)
     ends: np.ndarray   # per edge: its source and target node, shape (edges, 2)
     paths: list        # per edge: its lattice points from source to target, shape (points, 3)
-    shifts: list       # per edge: what takes each point to the middle, in lattice units; 0 at nodes
+    shifts: list       # per edge: offset of each point to the middle, in lattice units; 0 at nodes
     radii: list        # per edge: the distance of each point to the background, in world units
     sheets: np.ndarray       # lattice points on no edge, as of surfaces, shape (points, 3)
     sheet_radii: np.ndarray  # one per point
@@ -50,8 +50,8 @@ class Skeleton:
         return scaled @ axes.T + np.array(placement.origin or [0, 0, 0])
 
     def curve(self, edge):
-        """The smooth curve in the middle of the object, a place in the world per point of the edge.
-        No place is farther from its point than half the radius, so all lie inside."""
+        """The smooth curve in the middle of the object, a world position per point of the edge.
+        No position is farther from its point than half the radius, so all lie inside."""
         points = self.world(self.paths[edge])
         way = smoothed(self.world(self.paths[edge] + self.shifts[edge])) - points
         far = np.maximum(np.linalg.norm(way, axis=1), 1e-300)
@@ -71,7 +71,7 @@ class Skeleton:
         return graph
 
     def write_swc(self, name):
-        """Trees of points with radii. SWC knows no loops: each is cut open at one of its steps."""
+        """Trees of points with radii. SWC cannot hold loops: each is cut at one of its steps."""
         import networkx
         steps, radius = networkx.Graph(), {}
         for path, radii in zip(self.paths, self.radii):
@@ -119,7 +119,7 @@ def mask_bricks(mask):
 
 
 def declare(array, spacing, origin, direction):
-    """What the server has to know beforehand, and the bytes."""
+    """The declaration that the server needs first, and the bytes."""
     placement = volume_pb2.Placement(spacing=np.broadcast_to(spacing, 3), origin=origin,
                                      direction=np.ravel(direction))
     if array.ndim == 3:
@@ -150,7 +150,7 @@ def requests(array, spacing=1.0, origin=(0, 0, 0), direction=np.eye(3), options=
 
 def skeletonize(channel, array, on_progress=None, timeout=600, **volume):
     """One call. `volume`: spacing, origin, direction, options. Raises grpc.RpcError; error_reason()
-    takes it apart. Origin is the world position of voxel, or lattice point, (0, 0, 0)."""
+    reads its reason. Origin is the world position of voxel, or lattice point, (0, 0, 0)."""
     columns = empty_columns()
     stub = service_grpc.SkeletonizationServiceStub(channel)
     summary = None
@@ -165,13 +165,13 @@ def skeletonize(channel, array, on_progress=None, timeout=600, **volume):
 
 
 def empty_columns():
-    """What add() fills and assemble() takes."""
+    """The tables that add() fills and assemble() reads."""
     return {name: [] for name in ("kind", "node", "ends", "count", "point", "shift", "radius",
                                   "sheet", "sheet_radius")}
 
 
 def add(columns, chunk):
-    """The tables are the chunks' tables, one after the other."""
+    """The tables are the concatenation of the chunks' tables."""
     nodes, edges, points = chunk.nodes, chunk.edges, chunk.points
     columns["kind"].extend(nodes.kind)
     columns["node"].extend(zip(nodes.x, nodes.y, nodes.z))
@@ -179,7 +179,7 @@ def add(columns, chunk):
     columns["count"].extend(edges.point_count)
     columns["point"].extend(zip(points.x, points.y, points.z))
     columns["radius"].extend(points.radius)
-    # Empty where the server was asked for chamfer distances: then the points are not moved.
+    # Empty for chamfer distances: points are then not moved.
     shifts = zip(points.shift_x, points.shift_y, points.shift_z)
     columns["shift"].extend(shifts if points.shift_x else [(0, 0, 0)] * len(points.x))
     columns["sheet"].extend(zip(chunk.sheets.x, chunk.sheets.y, chunk.sheets.z))

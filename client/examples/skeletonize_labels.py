@@ -24,7 +24,7 @@ TYPES = {1: volume_pb2.LABEL_TYPE_UINT8, 2: volume_pb2.LABEL_TYPE_UINT16,
 
 
 def declare(volume, spacing):
-    """What the server has to know beforehand. The counts let it reserve less memory."""
+    """The declaration that the server needs first. The counts let it reserve less memory."""
     labels, counts = np.unique(volume[volume != 0], return_counts=True)
     nz, ny, nx = volume.shape
     return volume_pb2.LabelVolumeDeclaration(
@@ -49,7 +49,7 @@ def requests(volume, spacing, config):
 
 
 def skeletonize_labels(channel, volume, spacing=1.0, on_progress=None, timeout=600, **config):
-    """Yields (label, Skeleton) by ascending label, as soon as they are there. `config`: labels,
+    """Yields (label, Skeleton) in ascending order, as soon as they arrive. `config`: labels,
     min_voxels, options, threads. Raises grpc.RpcError."""
     stub = service_grpc.SkeletonizationServiceStub(channel)
     columns, done, summary = {}, 0, None

@@ -1,4 +1,4 @@
-"""Skeletons of arrays and meshes, here or on a server."""
+"""Skeletons of arrays and meshes, in process or on a server."""
 
 from __future__ import annotations
 
@@ -112,14 +112,14 @@ def skeletonize(mask: Any, spacing: Any = None, origin: Any = None, direction: A
     """The skeleton of a mask.
 
     mask: an array of three axes, of any real type and any strides, an `Image`, or a `Lattice`,
-        whose coordinates are x, y, z. What is not 0 is the object; NaN is background. `threshold=`,
-        `below=`, `range=` and `label=` choose other voxels.
+        whose coordinates are x, y, z. Nonzero voxels are the object; NaN is background. `threshold=`,
+        `below=`, `range=` and `label=` select other voxels.
     spacing: the size of a voxel along each axis of the array, or one number; 1 by default.
     origin: the center of voxel (0, 0, 0), in the order of the axes; 0 by default.
-    direction: shape (3, 3); column n is what axis n of the array points to.
-    axes: which axis of the array is which: 'zyx' or, as nibabel has it, 'xyz'. Coordinates of the
+    direction: shape (3, 3); column n is the direction of the array's axis n.
+    axes: the order of the array's axes: 'zyx' or, as in nibabel, 'xyz'. Coordinates of the
         result are in the same order.
-    threads: 0 takes all of the machine. The result is the same for any number.
+    threads: 0 means all of the machine. The result is the same for any number.
     timeout: seconds.
     progress: called with (shells done, all shells).
     options: those of `bccskel skeletonize` with underscores: method, kind, pruning,
@@ -147,8 +147,8 @@ def skeletonize_labels(image: Any, spacing: Any = None, origin: Any = None, dire
     """The skeletons of the labels of an image, by label; 0 and NaN are background.
 
     As `skeletonize()`, but `progress` is called with (labels done, all labels), and the options are
-    those of `bccskel labels`: labels=[1, 7], min_voxels=100, ... If no voxel has any of the labels
-    given, that is a ValueError.
+    those of `bccskel labels`: labels=[1, 7], min_voxels=100, ... Raises ValueError if no voxel
+    has any of the given labels.
 
     >>> import numpy as np
     >>> image = np.zeros((8, 16, 30), np.uint16)
@@ -170,7 +170,7 @@ def skeletonize_mesh(vertices: Any, faces: Any = None, threads: int = 0,
     vertices: shape (n, 3), x, y, z; or a `Mesh`, then without faces.
     faces: shape (m, 3), indices of vertices.
     options: those of `bccskel skeletonize` with underscores. points=850_000 (default) or
-        spacing=0.5 is the resolution; fill='parity' or 'winding' says what is inside.
+        spacing=0.5 is the resolution; fill='parity' or 'winding' defines the inside.
 
     Otherwise as `skeletonize()`; coordinates of the result are x, y, z.
 
@@ -189,7 +189,7 @@ def read(path: Union[str, os.PathLike],
     """An image (NIfTI, NRRD, TIFF, PNG, MetaImage, npy, npz, vol, ...) or a mesh (OBJ, STL, PLY, OFF,
     glTF, VTK polygon data, GIFTI, FreeSurfer) from a file, as the command line reads it; also
     compressed by gzip. A folder is read as OME-Zarr 0.4, a Zarr array, a Neuroglancer precomputed
-    volume or PNG or TIFF slices, a file for each. A .json file is a result of the command line or of
+    volume or one PNG or TIFF file per slice. A .json file is a result of the command line or of
     `Skeleton.save()`: a `Skeleton` that cannot be shown with its object, coordinates x, y, z. A
     .exr or .bccb file is a `Lattice`.
 
@@ -240,13 +240,13 @@ class Client:
     """The same functions, computed by a server.
 
     address: 'HOST:PORT' or 'unix:PATH'.
-    token: what the server wants to let the caller in, in visible ASCII; whitespace around it, such
-        as the newline of a file, is left out.
+    token: the access token, in visible ASCII; surrounding whitespace, such
+        as the newline of a file, is removed.
     tls: None for no encryption; True to trust the authorities of this machine; the path of a file
         of authorities (PEM); or (authorities, certificate, key), three paths.
-    plaintext_token: send the token over a network without TLS, too.
+    plaintext_token: also send the token over a network without TLS.
 
-    Nothing is sent until a method is called. Raises ConnectionError where no server is reached,
+    Nothing is sent until a method is called. Raises ConnectionError if no server is reached,
     PermissionError for a missing or wrong token.
 
     >>> client = Client("unix:/nowhere")
@@ -268,7 +268,7 @@ class Client:
         if not isinstance(plaintext_token, (bool, np.bool_)):
             raise TypeError(f"plaintext_token must be True or False, got {plaintext_token!r}")
         self.address = address
-        # All of types that the binding takes: its error would show the token.
+        # Checks types here, because the binding's error would show the token.
         self._endpoint = _native.Endpoint(os.fsencode(address),
                                           (token or "").encode("utf-8", "surrogatepass"), pems,
                                           bool(plaintext_token))
@@ -303,5 +303,5 @@ class Client:
                          timeout: Optional[float] = None,
                          progress: Optional[Callable[[int, int], Any]] = None,
                          **options: Any) -> Skeleton:
-        """As `bccskel.skeletonize_mesh()`; the mesh is filled here."""
+        """As `bccskel.skeletonize_mesh()`; the mesh is filled in process."""
         return _mesh(self._server, vertices, faces, threads, timeout, progress, options)

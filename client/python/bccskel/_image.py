@@ -1,4 +1,4 @@
-"""Arrays and where they lie in the world."""
+"""Arrays and their placement in the world."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ class Image:
     spacing: tuple
     origin: tuple
     direction: np.ndarray
-    """Shape (3, 3); column n is what axis n of the array points to."""
+    """Shape (3, 3); column n is the direction of the array's axis n."""
     unit: str = ""
-    """Of the coordinates: "mm", "um", ...; empty where the file does not say."""
+    """The unit of coordinates: "mm", "um", ...; empty if the file does not state it."""
     world: str = ""
-    """What the axes of the world point to: "RAS", "LPS", ...; empty where the file does not say."""
+    """Where the world's axes point: "RAS", "LPS", ...; empty if the file does not state it."""
     name: str = "image"
 
     def __repr__(self) -> str:
@@ -59,7 +59,7 @@ class Lattice:
     """
 
     def __init__(self, volume: Any, name: str = "lattice") -> None:
-        """Not for users."""
+        """For internal use."""
         self._volume = volume
         self.name = name
 
@@ -73,14 +73,14 @@ class Lattice:
 
     @functools.cached_property
     def coordinates(self) -> np.ndarray:
-        """Where the points are in the world, shape (n, 3), x, y, z."""
+        """World coordinates of the points, shape (n, 3), x, y, z."""
         placement = self._volume.placement
         steps = self.points * np.asarray(placement.spacing) / 2
         return np.asarray(placement.origin) + steps @ np.reshape(placement.direction, (3, 3)).T
 
 
 class Frame:
-    """Which axis of an array is which, and where its voxels lie."""
+    """The axes of an array and the placement of its voxels."""
 
     def __init__(self, axes: str, spacing: Any = None, origin: Any = None,
                  direction: Any = None) -> None:
@@ -98,7 +98,7 @@ class Frame:
 
     @property
     def from_xyz(self) -> list:
-        """Where each axis of the array is in x, y, z."""
+        """The index of each axis of the array in x, y, z."""
         return ["xyz".index(axis) for axis in self.axes]
 
     @property
@@ -114,7 +114,7 @@ class Frame:
         return array.transpose([self.axes.index(axis) for axis in "zyx"])
 
     def voxels(self, points: np.ndarray) -> np.ndarray:
-        """Indices of the voxels that points in the world lie in, shape (n, 3)."""
+        """Indices of the voxels that contain points in the world, shape (n, 3)."""
         offsets = (points - self.origin) @ np.linalg.inv(self.direction).T
         return np.rint(offsets / self.spacing).astype(np.int64)
 
@@ -153,7 +153,7 @@ def voxels_of(array: Any, name: str) -> np.ndarray:
 
 
 def labels_for_sending(labels: np.ndarray) -> np.ndarray:
-    """The same labels as unsigned numbers in one piece."""
+    """The same labels as a contiguous array of unsigned numbers."""
     if labels.dtype.kind == "f":
         whole = np.nan_to_num(labels, nan=0.0)
         if not (whole == np.trunc(whole)).all() or not (np.abs(whole) < 2.0 ** 63).all():

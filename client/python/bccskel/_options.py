@@ -1,4 +1,4 @@
-"""Options: the command line's, with underscores. The extension module hands them to its parser."""
+"""Options: the command line's, with underscores. The extension module parses them."""
 
 from __future__ import annotations
 

@@ -41,18 +41,18 @@ class Skeleton:
     def __init__(self, outcome: Any, frame: Frame, title: str, voxels: bool = False,
                  label: Optional[int] = None, image: Any = None, unit: str = "",
                  world: str = "") -> None:
-        """Not for users."""
+        """For internal use."""
         self._outcome = outcome
         self._frame = frame
         self._of_voxels = voxels
         self.unit = getattr(image, "unit", unit)
-        """Of coordinates, radii and lengths: "mm", "um", ...; empty if unknown."""
+        """The unit of coordinates, radii and lengths: "mm", "um", ...; empty if unknown."""
         self.world = getattr(image, "world", world)
-        """What the axes point to: "RAS", "LPS", ...; empty if unknown."""
+        """Where the axes point: "RAS", "LPS", ...; empty if unknown."""
         self.title = title
-        """Of pages and pictures."""
+        """The title of pages and pictures."""
         self.label = label
-        """Of the image that it was made from; None where it is the skeleton of a mask or mesh."""
+        """The label in the image; None for the skeleton of a mask or mesh."""
 
     def __repr__(self) -> str:
         kept = "kept" if self.certificate["topology_kept"] else "changed"
@@ -62,7 +62,7 @@ class Skeleton:
                 f"length {self.lengths.sum():.6g}, topology {kept}>")
 
     def __getstate__(self) -> dict:
-        """For pickle and copy: all but the arrays, which are made again when asked for."""
+        """For pickle and copy: everything except the arrays, which are made again on request."""
         names = ("_outcome", "_frame", "_of_voxels", "unit", "world", "title", "label")
         return {name: self.__dict__[name] for name in names}
 
@@ -88,23 +88,23 @@ class Skeleton:
 
     @functools.cached_property
     def nodes(self) -> np.ndarray:
-        """Where the ends, junctions and so on are, shape (nodes, 3)."""
+        """Positions of the ends, junctions and other nodes, shape (nodes, 3)."""
         return self._columns(self._nodes["positions"])
 
     @property
     def node_radii(self) -> np.ndarray:
-        """Of the largest ball around each node inside the object, shape (nodes,)."""
+        """The radius of the largest ball around each node inside the object, shape (nodes,)."""
         return self._nodes["radii"]
 
     @functools.cached_property
     def node_kinds(self) -> np.ndarray:
-        """'end', 'junction', 'loop' (stands for a closed curve), 'isolated' or 'closed_surface',
+        """'end', 'junction', 'loop' (represents a closed curve), 'isolated' or 'closed_surface',
         shape (nodes,)."""
         return np.array(self._nodes["kinds"], dtype="U14")
 
     @property
     def node_components(self) -> np.ndarray:
-        """Which connected piece each node belongs to, from 0, shape (nodes,)."""
+        """The connected component of each node, from 0, shape (nodes,)."""
         return self._nodes["components"]
 
     @property
@@ -114,12 +114,12 @@ class Skeleton:
 
     @functools.cached_property
     def paths(self) -> list:
-        """Of each edge the smooth curve from its first to its second node, shape (points, 3)."""
+        """For each edge the smooth curve from its first to its second node, shape (points, 3)."""
         return self._split(self._columns(self._edges["points"]))
 
     @functools.cached_property
     def radii(self) -> list:
-        """Of each edge the radii along `paths`, shape (points,)."""
+        """For each edge the radii along `paths`, shape (points,)."""
         return self._split(self._edges["radii"])
 
     def _split(self, rows: np.ndarray) -> list:
@@ -128,18 +128,18 @@ class Skeleton:
 
     @property
     def lengths(self) -> np.ndarray:
-        """Of the curves, shape (edges,)."""
+        """Lengths of the curves, shape (edges,)."""
         return self._edges["figures"]["length"]
 
     @property
     def pruning_levels(self) -> np.ndarray:
-        """The `pruning_threshold` above which each edge goes; infinite for those that never do,
+        """The `pruning_threshold` above which each edge is pruned; infinite if never,
         shape (edges,)."""
         return self._edges["figures"]["pruning_level"]
 
     @functools.cached_property
     def sheets(self) -> np.ndarray:
-        """Points on no edge, as of surface skeletons, shape (points, 3)."""
+        """Points on no edge, as in surface skeletons, shape (points, 3)."""
         return self._columns(self._sheets["points"])
 
     @property
@@ -156,18 +156,18 @@ class Skeleton:
 
     @functools.cached_property
     def certificate(self) -> dict:
-        """What proves that the topology was kept: components, loops and cavities of the mask, of
+        """Proves that the topology was kept: components, loops and cavities of the mask, of
         the object and of the skeleton, and whether they agree."""
         return self._outcome.certificate
 
     @property
     def sha256(self) -> str:
-        """Of the graph: equal on every machine, and equal to what the command line prints."""
+        """Digest of the graph: equal on every machine and to that of the command line."""
         return self._outcome.sha256
 
     @property
     def method(self) -> str:
-        """How it was made, in words."""
+        """The method in words."""
         return self._outcome.method
 
     @property
@@ -177,22 +177,22 @@ class Skeleton:
 
     @property
     def notes(self) -> list:
-        """What a user of this result should know, a sentence each."""
+        """Notes for the user of this result, one sentence each."""
         return self._outcome.notes
 
     @property
     def warnings(self) -> list:
-        """What the conversion to lattice points met with, a sentence each."""
+        """Warnings of the conversion to lattice points, one sentence each."""
         return self._outcome.warnings
 
     @property
     def timings(self) -> dict:
-        """Seconds of each stage."""
+        """The time of each stage in seconds."""
         return self._outcome.timings
 
     @property
     def voxels(self) -> int:
-        """Of the mask or the label; 0 for a mesh."""
+        """The number of voxels of the mask or the label; 0 for a mesh."""
         return self._outcome.voxels
 
     def to_networkx(self, points: bool = False) -> networkx.MultiGraph:
@@ -273,7 +273,7 @@ class Skeleton:
                                  for name, values in table.items()})
 
     def _mean_of_edges(self, values: np.ndarray) -> np.ndarray:
-        """Of one value for each point of all edges."""
+        """The mean over each edge of values for the points of all edges."""
         offsets = self._edges["offsets"]
         if len(offsets) == 1:
             return np.empty(0)
@@ -301,7 +301,7 @@ class Skeleton:
         return self._of_axes(self._outcome.curve_image())
 
     def branch_image(self) -> np.ndarray:
-        """The same with each voxel of the mask: the number of the nearest edge + 1."""
+        """The same for each voxel of the mask: the number of the nearest edge + 1."""
         return self._of_axes(self._outcome.branch_image())
 
     def _of_axes(self, image: np.ndarray) -> np.ndarray:
@@ -330,7 +330,7 @@ class Skeleton:
             warnings.warn(f"{os.fspath(path)}: {note}", stacklevel=2)
 
     def page(self) -> Page:
-        """The page that shows the object and its skeleton, as a text of HTML."""
+        """The page that shows the object and its skeleton, as HTML text."""
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder, "page.html")
             self.save(path)
@@ -345,7 +345,7 @@ class Skeleton:
 
 
 class Page:
-    """A page that needs nothing else: `html` is its text."""
+    """A self-contained page: `html` is its text."""
 
     def __init__(self, text: str) -> None:
         self.html = text
@@ -362,7 +362,7 @@ class Page:
         pathlib.Path(path).write_text(self.html, encoding="utf-8")
 
     def open(self) -> str:
-        """Opens it in a browser, from a file that stays. Returns the file's path."""
+        """Opens the page in a browser from a permanent file. Returns its path."""
         with tempfile.NamedTemporaryFile("w", prefix="bccskel-", suffix=".html", delete=False,
                                          encoding="utf-8") as file:
             file.write(self.html)

@@ -1,19 +1,19 @@
 // ---- Order of pruning ----
 
 const levelOf = Float64Array.from(result.edges, (e) => e.pruning_level ?? Infinity);
-// The branches that go last come first, so that those shown are always the first ones.
+// The branches that are pruned last come first, so that the visible ones are always a prefix.
 const byLevel = result.edges.map((_, id) => id)
   .sort((a, b) => levelOf[b] > levelOf[a] ? 1 : levelOf[b] < levelOf[a] ? -1 : a - b);
 
 const componentOf = (node) => nodeAt[node].component ?? 0;
 const edgeComponent = (id) => componentOf(result.edges[id].source);
 const hidden = new Set();  // components
-let order = byLevel;  // without the hidden ones
+let order = byLevel;  // without hidden components
 
 // ---- Graphs ----
 
-// The result's own items come first, then those that pruning makes of them. Each step of the slider
-// is the difference to the one before (../pruning_steps.h).
+// The result's own items come first, then those that pruning creates. Each step of the slider is
+// the difference from the previous one (../pruning_steps.h).
 const { steps } = result.pruning_steps;
 const levels = steps.map(({ level }) => level);
 const nodeAt = [...result.nodes, ...result.pruning_steps.nodes];
@@ -41,7 +41,7 @@ function measureBranch(branch, number) {
     generation: least(figures("generation")), strahler: most(figures("strahler")) });
 }
 
-// What another run leaves that prunes by a threshold just above the level of the step.
+// What remains after a run with a threshold just above the level of the step.
 function prunedTo(step) {
   const states = new Set(result.nodes.keys()), rows = new Set(result.edges.keys());
   for (const { states: kinds, branches } of steps.slice(0, step)) {
@@ -68,7 +68,7 @@ function prunedTo(step) {
                          branchOf: (id) => branchOf.get(id) ?? id });
 }
 
-// Totals of every component, and of the graph what is not hidden.
+// Totals of every component, and of the visible part of the graph.
 function withoutHidden(graph) {
   const components = [];
   const totalsOf = (id) => components[id] ??=
@@ -95,5 +95,5 @@ function withoutHidden(graph) {
 }
 
 let shown = prunedTo(0);
-// The branch that an edge is a part of, if it is shown.
+// The visible branch that contains an edge.
 const branchWith = (id) => shown.branches.get(shown.branchOf(id));

@@ -1,9 +1,9 @@
-// ---- Where the viewer is ----
+// ---- Camera ----
 
-// Around `target` by `turn` and over it by `climb` (radians), at a distance in edges of the scene.
+// `turn` around `target` and `climb` above it (radians), at a distance in edges of the scene.
 const view = { turn: 0, climb: 0, distance: 1, target: new THREE.Vector3(), flat: false };
 const first = { turn: 0.52, climb: 0.26 };  // of three quarters
-const upright = new THREE.Quaternion();  // from the frame that `turn` and `climb` are of
+const upright = new THREE.Quaternion();  // from the frame of `turn` and `climb`
 const wholeBox = new THREE.Box3();
 const kHalfField = Math.tan(16 * Math.PI / 180);
 const halfHeight = () => view.distance * kHalfField;
@@ -21,7 +21,7 @@ function placeCamera() {
   camera.position.set(0, 0, distance).applyQuaternion(camera.quaternion).add(target);
   camera.updateMatrixWorld();
   const aspect = drawn.width / Math.max(drawn.height, 1);
-  // Everything is within two edges of the target, unless that was moved far away.
+  // Everything is within two edges of the target, unless the target was moved far away.
   const far = distance + 4 + 2 * target.length();
   const near = flat ? -far : Math.max(far / 5000, distance - 4);
   const up = flat ? halfHeight() : near * kHalfField;
@@ -30,7 +30,7 @@ function placeCamera() {
   camera.projectionMatrixInverse.getInverse(camera.projectionMatrix);
 }
 
-// Whether an object of an image is as thin as a slice; see client/export/picture/projection.h.
+// Whether an object of an image is one slice thick; see client/export/picture/projection.h.
 function isSlice({ x, y, z }) {
   const { source, voxel_slabs: slabs } = result.options ?? {};
   if (source !== "voxels" || !result.placement || !layers.length || z > Math.min(x, y)) return false;
@@ -62,7 +62,7 @@ function startView(box) {
   wholeBox.copy(box);
   Object.assign(view, wholeView());
 }
-// From the same side as at first, as near as the whole object may be seen.
+// From the initial side, as near as possible with the whole object in view.
 function wholeView() {
   const { turn, climb } = first, target = wholeBox.getCenter(new THREE.Vector3());
   const toCamera = cameraTurn(turn, climb).inverse();
@@ -82,12 +82,12 @@ function wholeView() {
 const kClimb = Math.PI / 2;
 const still = window.matchMedia("(prefers-reduced-motion: reduce)");
 let gliding = null;
-// Goes to another view within a moment, at once for those who want no motion.
+// Animates to another view, or jumps for users who prefer reduced motion.
 function glideTo(to) {
   gliding = { from: copyOf(view), to: { ...copyOf(view), ...to }, start: null };
   redraw();
 }
-// Returns whether there is more to come.
+// Returns whether the animation continues.
 function glide(now) {
   if (!gliding) return false;
   const { from, to } = gliding;
@@ -108,20 +108,20 @@ function moved() {
   gliding = null;
   redraw();
 }
-// Around the object by `right` and over it by `up` (radians), or nearer by a factor.
+// Moves `right` around the object and `up` above it (radians), or nearer by a factor.
 function orbit(right, up, nearer = 1) {
   view.turn += right;
   view.climb = Math.max(-kClimb, Math.min(kClimb, view.climb + up));
   view.distance = Math.max(1e-4, Math.min(100, view.distance * nearer));
   moved();
 }
-// The target by pixels of the screen.
+// Moves the target by screen pixels.
 function pan(x, y) {
   const pixel = 2 * halfHeight() / Math.max(drawn.height, 1);
   view.target.add(new THREE.Vector3(-x * pixel, y * pixel, 0).applyQuaternion(camera.quaternion));
   moved();
 }
-// Keeps what is under a place of the screen there.
+// Keeps the scene point at this screen position in place.
 function zoomAt(x, y, nearer) {
   const { distance } = view;
   orbit(0, 0, nearer);
@@ -143,9 +143,9 @@ function setFlat(flat) {
 
 // ---- Pointers ----
 
-// A drag turns, with the right button or a key it pans; two fingers pan and zoom.
+// A drag rotates; with the right button or a key it pans. Two fingers pan and zoom.
 const fingers = new Map();
-let way = 0;  // of the pointer since it was pressed
+let way = 0;  // distance of the pointer since it was pressed
 function spread() {
   const [a, b] = [...fingers.values()];
   return { x: (a.x + b.x) / 2, y: (a.y + b.y) / 2, apart: Math.hypot(a.x - b.x, a.y - b.y) };

@@ -10,9 +10,9 @@ const themes = {
 };
 let theme = themes.light;
 
-// ---- What edges are colored by ----
+// ---- Colors of edges ----
 
-// A number per edge or per point, or just apart from each other.
+// By a number per edge or per point, or only to tell edges apart.
 const colorings = {
   radius: { name: "radius", unit, ofPoint: (e, n) => e.radii[n] },
   branch: { name: "branch" },
@@ -52,7 +52,7 @@ function rampColor(value, { least, most }) {
   return new THREE.Color(theme.ramp[stop]).lerp(new THREE.Color(theme.ramp[stop + 1]),
                                                 place - stop);
 }
-// Neighboring numbers get hues far apart.
+// Consecutive numbers get distant hues.
 const branchColor = (id) =>
   new THREE.Color().setHSL((id * 0.618034) % 1, 0.68, theme.lightness);
 function edgeColor(id) {

@@ -1,7 +1,6 @@
 // ---- The cut ----
 
-// A plane across an axis. What lies on its far side is not drawn: surfaces and balls, and the
-// skeleton where that is wished.
+// A plane across an axis. The far side is not drawn: surfaces, balls and, on request, the skeleton.
 const cut = { axis: null, part: 0.5, flipped: false };
 const kNowhere = new THREE.Plane(new THREE.Vector3(1, 0, 0), 1e6);
 const surfacePlane = kNowhere.clone(), skeletonPlane = kNowhere.clone();
@@ -29,7 +28,7 @@ function cutPlace() {
   const low = cutBox.min.getComponent(axis), high = cutBox.max.getComponent(axis);
   return low + cut.part * (high - low);
 }
-// Of a point of the skeleton at a place in a list of coordinates.
+// For a point of the skeleton at an index in a list of coordinates.
 function isCutOff(points, at) {
   const { normal: { x, y, z }, constant } = skeletonPlane;
   return x * points[at] + y * points[at + 1] + z * points[at + 2] + constant < 0;
@@ -52,7 +51,7 @@ function showCut() {
     frameCut(axis);
   }
   skeletonPlane.copy(element("cut-all").checked ? surfacePlane : kNowhere);
-  // Through the cut one looks at the inside.
+  // The cut shows the inside.
   const side = on ? THREE.DoubleSide : THREE.FrontSide;
   for (const material of [...core.materials, ...ghost.materials]) {
     if (material.side === side) continue;

@@ -132,7 +132,7 @@ function dress(name) {
 
 const systemDark = window.matchMedia("(prefers-color-scheme: dark)");
 const systemTheme = () => systemDark.matches ? "dark" : "light";
-let flipped = false;  // by hand
+let flipped = false;  // by the user
 function flip() {
   flipped = true;
   dress(theme === themes.dark ? "light" : "dark");
@@ -221,7 +221,7 @@ function showPanels() {
   element("pruning").hidden = levels.length === 0;
   element("prune").max = levels.length;
   element("save-1x").disabled = element("save-2x").disabled = renderer === null;
-  if (window.innerWidth <= 760) toggleSide();  // as style.css says
+  if (window.innerWidth <= 760) toggleSide();  // as in style.css
   showCertificate();
 }
 
@@ -256,7 +256,7 @@ async function start() {
   element("peel").disabled = data.layers.length < 2;
   element("prune").disabled = levels.length === 0;
   grant(wished());
-  draw();  // at once: whoever waits for the state finds the picture
+  draw();  // immediately: code that waits for the state expects the picture
   root.dataset.state = "ready";
 }
 start();

@@ -1,6 +1,7 @@
-// ---- What is under the pointer ----
+// ---- Picking ----
 
-// Calls give the place on the screen and the depth of a scene point; no place behind the viewer.
+// The returned function stores the screen position and the depth of a scene point in `to`; a point
+// behind the viewer has no position.
 function projector() {
   const m = new THREE.Matrix4().multiplyMatrices(
     camera.projectionMatrix, camera.matrixWorldInverse).elements;
@@ -28,7 +29,7 @@ function nodeUnder(x, y) {
   return found;
 }
 
-// Returns the edge and the point of it that are nearest to a place on the screen, within 14 pixels.
+// Returns the edge, and its point, nearest to a screen position, within 14 pixels.
 function edgeUnder(x, y) {
   if (!element("show-skeleton").checked) return null;
   const project = projector(), a = {}, b = {};
@@ -43,7 +44,7 @@ function edgeUnder(x, y) {
       const p = 3 * n;
       const here = project(curvePoints[p], curvePoints[p + 1], curvePoints[p + 2], b);
       if (here && !isCutOff(curvePoints, p)) {
-        // The way back to the point before, and how far along it one is nearest.
+        // The segment to the previous point, and the nearest position along it.
         const [u, v] = last ? [a.x - b.x, a.y - b.y] : [0, 0], square = u * u + v * v;
         const along = square > 0 ? ((x - b.x) * u + (y - b.y) * v) / square : 0;
         const part = Math.max(0, Math.min(1, along));
@@ -60,7 +61,7 @@ function edgeUnder(x, y) {
   return found;
 }
 
-// ---- What is told of it ----
+// ---- Tooltip ----
 
 function aboutNode(n) {
   const node = nodeAt[n];
@@ -94,7 +95,7 @@ function forget() {
   mark(null);
   redraw();
 }
-// The branch that stands out: under the pointer, or of the row of the table that is looked at.
+// The highlighted branch: the one under the pointer or of the hovered row of the table.
 function mark(branch) {
   hoverMark.show(branch ? [branch] : []);
   redraw();
@@ -116,7 +117,7 @@ function tell(found, x, y) {
   mark(found.branch);
 }
 
-// Looked at once a frame, however often the pointer moves.
+// Updated once per frame, however often the pointer moves.
 const pointer = { at: null, asked: false };
 function pointAt(x, y) {
   pointer.at = { x, y };
@@ -137,7 +138,7 @@ function look({ x, y }) {
 
 // ---- Pins ----
 
-// By edge, so that a pin stays where pruning joins branches.
+// By edge, so that a pin survives the joining of branches by pruning.
 let pins = [];
 const pinned = () => [...new Set(pins.map(branchWith).filter(Boolean))];
 const isPinned = (branch) => pins.some((id) => branchWith(id) === branch);
@@ -152,7 +153,7 @@ function togglePin(branch) {
 }
 function choose(event) {
   const { offsetX: x, offsetY: y, pointerType } = event, found = edgeUnder(x, y);
-  if (pointerType === "touch") look({ x, y });  // a finger has no place to hover
+  if (pointerType === "touch") look({ x, y });  // a finger cannot hover
   if (!found) return;
   const branch = branchWith(found.id);
   togglePin(branch);
@@ -190,7 +191,7 @@ function placeLabels() {
     label.style.transform = `translate(${at.x.toFixed(1)}px, ${at.y.toFixed(1)}px)`;
   }
 }
-// In the middle, and near enough to be seen well, but not nearer than one was.
+// Centers the point and moves near enough to see it well, but never farther away.
 function center(branch) {
   const box = new THREE.Box3();
   for (const id of branch.edges) {

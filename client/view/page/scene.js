@@ -27,7 +27,7 @@ void main() {
   gl_FragColor = vec4(color, clamp(strength * cover, 0.0, 1.0));
 }`;
 
-// First the depth, then the color of what is in front: one layer of glass, not four.
+// First the depth, then the color of what is in front: one layer of glass instead of four.
 class Glass {
   constructor(order, body) {
     this.depth = new THREE.Mesh(undefined, new THREE.MeshBasicMaterial(
@@ -49,7 +49,7 @@ class Glass {
 // ---- The scene ----
 
 const canvas = element("scene"), stage = element("stage");
-// Without WebGL there are the figures still: everything but the picture works.
+// Without WebGL everything except the picture still works.
 function makeRenderer() {
   try {
     return new THREE.WebGLRenderer({ canvas, antialias: true });
@@ -70,19 +70,19 @@ const core = new Glass(1, 1), ghost = new Glass(3, 0);
 ghost.depth.visible = false;
 const tubes = new Tubes(), nodes = nodeMeshes();
 const hoverMark = new Marks(tubes, 1.1), pinMark = new Marks(tubes, 0.5);
-// The largest ball of the object around a point of the skeleton.
+// The largest ball inside the object around a point of the skeleton.
 const ball = new THREE.Mesh(new THREE.SphereBufferGeometry(1, 40, 28), new THREE.MeshPhongMaterial(
   { transparent: true, opacity: 0.35, depthWrite: false }));
 ball.visible = false;
 ball.renderOrder = 0.5;  // behind the glass, before its depth
 scene.add(core.group, ghost.group, tubes.mesh, ...Object.values(nodes), pinMark.mesh,
           hoverMark.mesh, ball);
-let sheets = null;  // a mesh, where the skeleton has any
+let sheets = null;  // a mesh, if the skeleton has any
 
 // ---- Drawing ----
 
-// Where pictures take long, those of a movement are drawn with fewer pixels, and the last one again
-// with all.
+// If drawing is slow, frames of a movement have fewer pixels, and the last one is drawn again with
+// all.
 const pace = { last: -Infinity, coarse: false, settling: 0 };
 function keepPace(now) {
   const between = now - pace.last;
@@ -96,7 +96,7 @@ function keepPace(now) {
   }, 400);
 }
 
-// Nothing is drawn unless something has asked for it.
+// Draws only on request.
 let asked = false;
 function redraw() {
   if (asked) return;
@@ -110,7 +110,7 @@ function redraw() {
   });
 }
 
-const drawn = { width: 0, height: 0, ratio: 0 };  // of the canvas as it is
+const drawn = { width: 0, height: 0, ratio: 0 };  // the canvas's current size
 function fitCanvas(ratio) {
   const { clientWidth: width, clientHeight: height } = stage;
   if (drawn.width === width && drawn.height === height && drawn.ratio === ratio) return;
@@ -159,7 +159,7 @@ function drawAxes() {
   }
 }
 
-// A bar as long as a round number of world units at the distance of what the camera turns around.
+// A bar with the length of a round number of world units at the distance of the camera's target.
 function scaleBar() {
   const pixel = 2 * halfHeight() / Math.max(drawn.height, 1) * edge, room = 140 * pixel;
   const power = 10 ** Math.floor(Math.log10(room));

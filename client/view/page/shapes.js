@@ -1,7 +1,6 @@
 // ---- Curves ----
 
-// What an older version wrote has no smooth curves: there the steps of the lattice are smoothed
-// away here.
+// Results of older versions have no smooth curves: the steps of the lattice are smoothed here.
 function displayCurve(e) {
   let curve = (e.curve || e.points).map(toScene);
   for (let turn = e.curve ? 2 : 6; turn > 0; --turn) {
@@ -11,7 +10,7 @@ function displayCurve(e) {
   return curve;
 }
 
-// All curves one after the other: many small lists would be slow to search.
+// All curves concatenated: many small lists would be slow to search.
 const curveStart = new Uint32Array(result.edges.length + 1);
 result.edges.forEach((e, id) => { curveStart[id + 1] = curveStart[id] + e.radii.length; });
 const pointCount = curveStart[result.edges.length];
@@ -31,7 +30,7 @@ for (const id of result.edges.keys()) {
 }
 const nodePlaces = new Float32Array(nodeAt.flatMap((n) => toScene(n.position)));
 
-// Many curves and short ones must be thinner to be told apart.
+// Many curves and short ones must be thinner to stay distinguishable.
 const sceneLength = result.edges.reduce((sum, e) => sum + e.length, 0) / edge;
 const middleLength = result.edges.map((e) => e.length).sort((a, b) => a - b)
   [result.edges.length >> 1] / edge;
@@ -42,7 +41,7 @@ const kStride = pointCount > 100000 ? 4 : pointCount > 15000 ? 2 : 1;
 
 // ---- Tubes ----
 
-// The points of a curve that rings are put around, and which ring is the first one of an edge.
+// The points of a curve that get rings, and the first ring of each edge.
 function* ringsOf(id) {
   const count = curveStart[id + 1] - curveStart[id];
   for (let n = 0; n < count - 1; n += kStride) yield n;
@@ -52,7 +51,7 @@ const ringStart = new Uint32Array(result.edges.length + 1);
 for (const id of result.edges.keys()) ringStart[id + 1] = ringStart[id] + [...ringsOf(id)].length;
 const ringCount = ringStart[result.edges.length];
 
-// Rings around the curve, turned no more than it turns.
+// Rings around the curve that twist no more than the curve.
 function addTube(id, positions, normals) {
   const at = [...ringsOf(id)].map((n) => curvePoint(curveStart[id] + n));
   const along = new THREE.Vector3(), other = new THREE.Vector3(), out = new THREE.Vector3();
@@ -88,10 +87,10 @@ class Tubes {
     this.mesh = new THREE.Mesh(this.geometry, new THREE.MeshPhongMaterial(
       { vertexColors: THREE.VertexColors, shininess: 60, specular: 0x222222 }));
     this.mesh.frustumCulled = false;
-    this.place = new Uint32Array(result.edges.length);  // of an edge in the order
+    this.place = new Uint32Array(result.edges.length);  // position of an edge in the order
     this.arrange();
   }
-  // Puts the triangles in the order that edges are shown in.
+  // Sorts the triangles in the order in which edges are shown.
   arrange() {
     const { index } = this.geometry;
     this.indicesUpTo = new Uint32Array(order.length + 1);
@@ -114,7 +113,7 @@ class Tubes {
     index.needsUpdate = true;
   }
   show(edges) { this.geometry.setDrawRange(0, this.indicesUpTo[edges]); }
-  // Where the triangles of an edge lie.
+  // The range of an edge's triangles.
   rangeOf(id) {
     const start = this.indicesUpTo[this.place[id]];
     return [start, this.indicesUpTo[this.place[id] + 1] - start];
@@ -133,7 +132,7 @@ class Tubes {
   }
 }
 
-// Branches drawn once more: wider, of one color, and in front of everything.
+// Branches drawn again: wider, in one color, and in front of everything.
 class Marks {
   constructor(tubes, width) {
     this.tubes = tubes;
@@ -163,7 +162,7 @@ class Marks {
 
 // ---- Sheets ----
 
-// Lit from either side, each triangle by itself: sheets meet and have no sides in common.
+// Lit from either side, each triangle separately, because sheets have no common orientation.
 async function sheetMesh() {
   const geometry = await surfaceGeometry(data.sheets);
   const steps = await unpack(data.sheets.radii, data.sheets.vertices);
@@ -187,7 +186,7 @@ async function sheetMesh() {
 // ---- Nodes ----
 
 const groupOf = (kind) => kind === "end" || kind === "junction" ? kind : "other";
-// A loop's node only stands for its curve.
+// A loop's node only represents its curve.
 const isDrawn = (n) => shown.kindOf(n) !== "loop";
 function nodeMeshes() {
   const meshes = {};

@@ -8,8 +8,8 @@ function save(name, blob) {
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 }
 
-// The branch table of the command line (client/export/branch_table.h), of the branches that the
-// table lists and in its order.
+// The branch table of the command line (client/export/branch_table.h), for the listed branches in
+// their order.
 function branchCsv() {
   const ordered = result.order !== undefined;
   const head = ["skeleton_id", "branch_id", "node_id_src", "node_id_dst", "branch_type",
@@ -29,10 +29,10 @@ function saveCsv() {
   save(".csv", new Blob([branchCsv()], { type: "text/csv" }));
 }
 
-// What is seen, with the scale and the axes.
+// The picture with the scale and the axes.
 function savePicture(ratio) {
   const picture = document.createElement("canvas"), pen = picture.getContext("2d");
-  draw(ratio);  // in the same turn as the copy: afterwards the canvas is empty
+  draw(ratio);  // in the same task as the copy: afterwards the canvas is empty
   picture.width = canvas.width;
   picture.height = canvas.height;
   pen.drawImage(canvas, 0, 0);
@@ -57,7 +57,7 @@ function savePicture(ratio) {
 // ---- Links ----
 
 const round = (v) => Number(v.toFixed(4));
-// What differs from a page just opened, as the address says it.
+// The differences from a newly opened page, in the form of the address.
 function stateText() {
   const state = new URLSearchParams();
   const slider = (id, name = id) => {

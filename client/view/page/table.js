@@ -27,13 +27,13 @@ const kColumns = {
   ],
 };
 
-// ---- Which rows, and in which order ----
+// ---- Filter and order of rows ----
 
 const table = { about: "branches", sort: { branches: ["id", 1], components: ["id", 1] }, rows: [],
                 at: 0, filter: "" };
-const kRow = 28;  // pixels, as style.css says
+const kRow = 28;  // pixels, as in style.css
 
-// `12 end length>5`: numbers are ids, words are of the text, and all must hold.
+// `12 end length>5`: numbers are ids, words match the text, and all must hold.
 function filterOf(text, columns) {
   const tests = text.toLowerCase().split(/\s+/).filter(Boolean).map((term) => {
     const [, name, sign, limit] = term.match(/^([a-z]+)(<=|>=|<|>|=)(-?[\d.]+(?:e-?\d+)?)$/) ?? [];
@@ -55,7 +55,7 @@ function listRows() {
   const [key, sign] = table.sort[table.about];
   const value = key === "shown" ? (row) => Number(!hidden.has(row.id)) : (row) => row[key];
   const compare = (a, b) => a < b ? -sign : a > b ? sign : 0;
-  // Those that have no value come last either way.
+  // Rows without a value come last in either order.
   table.rows = all.filter(filterOf(table.filter, kColumns[table.about])).sort((a, b) => {
     const [u, v] = [value(a), value(b)];
     return (u === undefined) - (v === undefined) || compare(u, v) || a.id - b.id;
@@ -72,7 +72,7 @@ function listRows() {
   refreshRows();
 }
 
-// ---- What is seen ----
+// ---- Visible rows ----
 
 function showHeads() {
   const columns = kColumns[table.about], [key, sign] = table.sort[table.about];
@@ -87,8 +87,8 @@ function showHeads() {
 }
 
 const isOpen = () => !element("dock").classList.contains("closed");
-// Only the rows that are seen are elements, and they are used again: a click needs the one that was
-// pressed to be there still.
+// Only visible rows are elements, and they are reused: a click needs the element that was pressed
+// to still exist.
 function refreshRows() {
   if (!isOpen()) return;
   const rows = element("rows"), body = element("body"), columns = kColumns[table.about];
@@ -134,7 +134,7 @@ function reveal(branch) {
   if (isOpen() && place >= 0) goToRow(place);
 }
 
-// ---- What one does with it ----
+// ---- Interaction ----
 
 function openDock(open) {
   element("dock").classList.toggle("closed", !open);
