@@ -43,17 +43,19 @@ void AllowManyConnections() {
 }
 
 // Makes writes beyond the file size limit (ulimit -f) fail instead of ending the server.
-void OutliveFullFiles() { std::signal(SIGXFSZ, SIG_IGN); }
+void IgnoreFileSizeSignal() { std::signal(SIGXFSZ, SIG_IGN); }
 
 // Debian's build of Abseil looks for deadlocks at every lock.
-void TakeLocksAsTheyCome() { absl::SetMutexDeadlockDetectionMode(absl::OnDeadlockCycle::kIgnore); }
+void DisableDeadlockDetection() {
+  absl::SetMutexDeadlockDetectionMode(absl::OnDeadlockCycle::kIgnore);
+}
 
 // By default the allocator raises its thresholds up to 64 MiB with the sizes that it sees freed,
 // and makes eight arenas per processor, each of which keeps the remains of its largest job. With
 // these limits, large blocks return to the system at once, others when an admitted job might need
 // the memory or after half a minute. If blocks of a few MiB returned at once, too, page faults
 // would make a job on a mask a tenth slower.
-void KeepLittleFreeMemory() {
+void LimitFreeMemory() {
   constexpr unsigned kFewestArenas = 4;
   mallopt(M_MMAP_THRESHOLD, 32 << 20);
   mallopt(M_TRIM_THRESHOLD, 2 << 20);
@@ -69,8 +71,8 @@ void ServeUntilStopped(const sigset_t& signals, Server& server) {
       exec::ProcessLargeBlocks().ReleaseUnused();
       malloc_trim(0);  // frees pages between blocks in use
     }
-    server.LookAfterData();
-    server.LookAfterCalls();
+    server.UpdateDataHealth();
+    server.EnforceCallLimits();
     const int received = sigtimedwait(&signals, nullptr, &kBetweenLooks);
     if (received == SIGTERM || received == SIGINT) return;
     if (received == SIGHUP) {
@@ -103,12 +105,12 @@ void Greet(const Server& server) {
 int Serve(const ServerConfig& config) {
   const sigset_t signals = Signals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-  KeepLittleFreeMemory();
-  TakeLocksAsTheyCome();
+  LimitFreeMemory();
+  DisableDeadlockDetection();
   AllowManyConnections();
-  OutliveFullFiles();
+  IgnoreFileSizeSignal();
   const Logging logging(config.log_level);
-  LogWhatLibrariesSay();
+  LogLibraryMessages();
   const auto server = Server::Start(config);
   if (!server.ok()) {
     std::fprintf(stderr, "bccskel-server: %s\n", std::string(server.status().message()).c_str());

@@ -142,7 +142,7 @@ class Server::Services {
     Add(plan, *server_, v1::ServerService::service_full_name());
   }
   void CutOff() { gate_.CutOff(); }
-  void LookAfterCalls() { gate_.LookAfterCalls(); }
+  void EnforceCallLimits() { gate_.EnforceCallLimits(); }
   void AddAdmin(ListenerPlan& plan) {
     Add(plan, *admin_, v1::AdminService::service_full_name());
     plan.reflection = ListenerPlan::Reflection::kOn;
@@ -273,21 +273,21 @@ void Server::ReloadNow() {
   if (!config_.tokens.empty()) TakeReload(callers_->ReloadNow());
 }
 
-void Server::LookAfterCalls() { services_->LookAfterCalls(); }
+void Server::EnforceCallLimits() { services_->EnforceCallLimits(); }
 
-void Server::LookAfterData() {
+void Server::UpdateDataHealth() {
   const DurableJobs* const durable_jobs = durable_jobs_.get();
   if (durable_jobs == nullptr) return;
   const absl::Status health = durable_jobs->Health();
-  if (health.ok() == data_is_well_) return;
-  data_is_well_ = health.ok();
+  if (health.ok() == data_healthy_) return;
+  data_healthy_ = health.ok();
   for (const char* service :
        {v1::JobService::service_full_name(), v1::VolumeService::service_full_name()}) {
     public_listener_->SetServing(service,
-                                 data_is_well_ ? Listener::Serving::kYes : Listener::Serving::kNo);
+                                 data_healthy_ ? Listener::Serving::kYes : Listener::Serving::kNo);
   }
-  Log(data_is_well_ ? LogLevel::kInfo : LogLevel::kError,
-      data_is_well_                 ? "data is intact again"
+  Log(data_healthy_ ? LogLevel::kInfo : LogLevel::kError,
+      data_healthy_                 ? "data is intact again"
       : absl::IsUnavailable(health) ? "data cannot be reached"
                                     : "data is damaged",
       {{"message", std::string(health.message())}});
@@ -305,13 +305,13 @@ void Server::TakeReload(const absl::Status& status) {
       {{"tenants", static_cast<int64_t>(callers_->tenants().size())}});
 }
 
-void Server::BeLameDuck() {
+void Server::WaitLameDuckTime() {
   using Clock = std::chrono::steady_clock;
   constexpr std::chrono::seconds kBetweenLooks(1);
   const Clock::time_point end = Clock::now() + config_.lame_duck;
   for (Clock::time_point now = Clock::now(); now < end; now = Clock::now()) {
     ReloadIfChanged();
-    LookAfterCalls();
+    EnforceCallLimits();
     std::this_thread::sleep_for(std::min<Clock::duration>(kBetweenLooks, end - now));
   }
 }
@@ -321,7 +321,7 @@ void Server::Drain() {
   draining_ = true;
   public_listener_->SetServing(Listener::Serving::kNo);
   if (admin_listener_ != nullptr) admin_listener_->SetServing(Listener::Serving::kNo);
-  BeLameDuck();
+  WaitLameDuckTime();
   if (durable_jobs_ != nullptr) durable_jobs_->StopAdmitting();
   jobs_.StopAdmitting();
   jobs_.WaitUntilEmpty(config_.drain);

@@ -40,9 +40,9 @@ class Server {
   void ReloadNow();
   // Ends calls with a removed token, and calls that have exceeded a timeout for sending or reading.
   // Needs: called once a second.
-  void LookAfterCalls();
+  void EnforceCallLimits();
   // Updates the health of the services that need the data directory. Needs: called once a second.
-  void LookAfterData();
+  void UpdateDataHealth();
 
   // Shuts down: health reports NOT_SERVING; after the lame-duck time new jobs are refused as
   // UNAVAILABLE, and admitted jobs have the drain time to finish and to be read; then the listener
@@ -62,14 +62,14 @@ class Server {
   absl::Status ListenForAdmins();
   absl::Status ShowMetrics();
   ServerGauges Gauges() const;
-  void BeLameDuck();
+  void WaitLameDuckTime();
   void SetTenants();
   void TakeReload(const absl::Status& status);
 
   const ServerConfig config_;
   const std::unique_ptr<Callers> callers_;
   std::atomic<bool> draining_ = false;
-  bool data_is_well_ = true;  // at the last LookAfterData()
+  bool data_healthy_ = true;  // at the last UpdateDataHealth()
   ServerMetrics metrics_;
   JobPool jobs_;
   // After jobs_: calls end before DurableJobs, and DurableJobs before the jobs' threads.

@@ -37,7 +37,9 @@ ExitCode RunCommand(const Arguments& arguments, const std::stop_token& stop) {
 }
 
 // Debian's build of Abseil looks for deadlocks at every lock.
-void TakeLocksAsTheyCome() { absl::SetMutexDeadlockDetectionMode(absl::OnDeadlockCycle::kIgnore); }
+void DisableDeadlockDetection() {
+  absl::SetMutexDeadlockDetectionMode(absl::OnDeadlockCycle::kIgnore);
+}
 
 // Keeps memory that one stage frees for the next. By default the allocator returns large blocks to
 // the system, which clears their pages again.
@@ -58,7 +60,7 @@ void PutHeapOnHugePages() {
 }
 
 ExitCode Main(int argc, char** argv) {
-  TakeLocksAsTheyCome();
+  DisableDeadlockDetection();
   KeepFreeMemory();
   const auto parsed = bccskel::cli::ParseArguments(argc, argv);
   if (const auto* code = std::get_if<ExitCode>(&parsed)) return *code;

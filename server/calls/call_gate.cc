@@ -128,7 +128,7 @@ absl::Status OpenStreams::CheckToken(Entry& entry, uint64_t generation) const {
   return CallError(Reason::kTokenInvalid, "the token of this call is no longer accepted");
 }
 
-void OpenStreams::LookAfter() {
+void OpenStreams::EnforceLimits() {
   using Seen = std::pair<std::shared_ptr<OpenStream>, absl::Status>;
   const uint64_t generation = callers_.generation();
   std::vector<Seen> seen;
@@ -154,7 +154,7 @@ absl::StatusOr<CallFacts> CallGate::Enter(const grpc::CallbackServerContext& con
                      .trace = TraceOf(context),
                      .context = &context};
   facts.cut_off = &cut_off_;
-  facts.lasting = &lasting_;
+  facts.open_streams = &open_streams_;
   // Before the check, so that a file that changes meanwhile leads to another one.
   facts.tokens = callers_.generation();
   const auto authorization = AuthorizationOf(context);

@@ -52,7 +52,7 @@ class OpenStreams {
   void Remove(const OpenStream& call);
 
   // Called once a second.
-  void LookAfter();
+  void EnforceLimits();
 
  private:
   struct Entry {
@@ -93,7 +93,7 @@ struct CallFacts {
   std::string authorization = {};  // the header, empty if absent; never shown to anybody
   uint64_t tokens = 0;             // Callers::generation() that accepted it
   // Watches streaming calls; null: nobody does. Outlives the call.
-  OpenStreams* lasting = nullptr;
+  OpenStreams* open_streams = nullptr;
   const grpc::CallbackServerContext* context = nullptr;  // valid until gRPC is done with the call
 
   bool IsCutOff() const { return cut_off != nullptr && *cut_off; }
@@ -125,7 +125,7 @@ class CallGate {
   // directory.
   explicit CallGate(const Callers& callers, const CallerTimeouts& timeouts = {},
                     DurableJobs* durable_jobs = nullptr)
-      : callers_(callers), durable_jobs_(durable_jobs), lasting_(callers, timeouts) {}
+      : callers_(callers), durable_jobs_(durable_jobs), open_streams_(callers, timeouts) {}
 
   // Errors: UNAUTHENTICATED for a missing or wrong token.
   absl::StatusOr<CallFacts> Enter(const grpc::CallbackServerContext& context,
@@ -149,12 +149,12 @@ class CallGate {
   // From now on cancelled calls count as aborted by the server.
   void CutOff() { cut_off_ = true; }
   // Called once a second.
-  void LookAfterCalls() { lasting_.LookAfter(); }
+  void EnforceCallLimits() { open_streams_.EnforceLimits(); }
 
  private:
   const Callers& callers_;
   DurableJobs* const durable_jobs_;
-  mutable OpenStreams lasting_;
+  mutable OpenStreams open_streams_;
   std::atomic<bool> cut_off_ = false;
 };
 

@@ -46,7 +46,7 @@ class StreamCall : public Reactor,
   }
   void OnDone() override {
     const std::shared_ptr<StreamCall> self = std::move(self_);
-    if (facts_.lasting != nullptr) facts_.lasting->Remove(*this);
+    if (facts_.open_streams != nullptr) facts_.open_streams->Remove(*this);
     std::unique_lock lock(mutex_);
     done_ = true;
     const absl::Status end = end_.value_or(absl::OkStatus());
@@ -60,7 +60,7 @@ class StreamCall : public Reactor,
  protected:
   void Open() {
     self_ = this->shared_from_this();
-    if (facts_.lasting != nullptr) facts_.lasting->Add(self_, facts_);
+    if (facts_.open_streams != nullptr) facts_.open_streams->Add(self_, facts_);
   }
   // Ends the call with this status unless it is ending already.
   void End(const absl::Status& status) {

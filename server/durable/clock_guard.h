@@ -16,27 +16,27 @@ class ClockGuard {
   using Steady = std::chrono::steady_clock::time_point;
 
   // `last`: the clock's last known time before, if any.
-  ClockGuard(std::chrono::seconds believable_leap, std::optional<Time> last, Steady now)
-      : believable_leap_(believable_leap), last_(last), last_steady_(now) {}
+  ClockGuard(std::chrono::seconds max_clock_leap, std::optional<Time> last, Steady now)
+      : max_clock_leap_(max_clock_leap), last_(last), last_steady_(now) {}
 
   // Whether to believe `now`: it has advanced as the steady clock has, or its last leap is long
   // past.
-  bool Believes(Time now, Steady steady) {
-    if (last_.has_value() && now - *last_ > (steady - last_steady_) + believable_leap_) {
-      doubted_until_ = steady + kTimeToCorrect;
+  bool Trusts(Time now, Steady steady) {
+    if (last_.has_value() && now - *last_ > (steady - last_steady_) + max_clock_leap_) {
+      distrusted_until_ = steady + kTimeToCorrect;
     }
     last_ = now;
     last_steady_ = steady;
-    return steady >= doubted_until_;
+    return steady >= distrusted_until_;
   }
 
  private:
   static constexpr std::chrono::hours kTimeToCorrect{1};
 
-  const std::chrono::seconds believable_leap_;
+  const std::chrono::seconds max_clock_leap_;
   std::optional<Time> last_;
   Steady last_steady_;
-  Steady doubted_until_ = Steady::min();
+  Steady distrusted_until_ = Steady::min();
 };
 
 }  // namespace bccskel::server

@@ -64,7 +64,7 @@ DurableJobs::DurableJobs(const DurableOptions& options, JobRunner& runner, const
       journal_(RandomId(), [this] { return Now(); }),
       active_(shared_, options.soon),
       members_(options.lease),
-      clock_(options.believable_leap, LastSeen(options.data_directory),
+      clock_(options.max_clock_leap, LastSeen(options.data_directory),
              std::chrono::steady_clock::now()),
       loop_(std::move(store), std::move(reserve)),
       files_(kFileThreads) {
@@ -166,7 +166,7 @@ void DurableJobs::Tick(std::stop_token stop) {
     tick_.wait_for(lock, stop, kTick, [] { return false; });
     if (!retry_wanted_.exchange(false) && !CleanUpIsDue() && !shared_) continue;
     loop_.Post([this] {
-      if (shared_ && !stopping_) LookAfterFleet();
+      if (shared_ && !stopping_) MaintainFleet();
       Retry(true);
       if (CleanUpIsDue()) CleanUp();
       Schedule();

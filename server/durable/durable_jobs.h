@@ -326,7 +326,7 @@ class DurableJobs final : public RunObserver {
   Flow OnRunEnd(std::shared_ptr<Run> run, absl::StatusOr<JobResult> result) override;
 
   // ---- The fleet; on the loop. Without other servers these do nothing.
-  void LookAfterFleet();
+  void MaintainFleet();
   // Applies the changes of other servers.
   void Sync();
   void Follow(const JobRow& job);
@@ -339,7 +339,7 @@ class DurableJobs final : public RunObserver {
   Flow Beat();
   absl::Status CountFiles(JobStore& store);
   Flow SweepShared();
-  void LookAtMembers();
+  void CheckMembers();
   Flow TakeOverFrom(Member member);
   // Called after this server was fenced off: its runs now belong to others.
   void Rejoin();
@@ -352,7 +352,7 @@ class DurableJobs final : public RunObserver {
   void ExpireUploads();
   void ExpireJobs();
   void ExpireVolumes();
-  bool ClockIsBelieved();
+  bool ClockIsTrusted();
 
   const DurableOptions options_;
   JobRunner& runner_;

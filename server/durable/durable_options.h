@@ -33,7 +33,7 @@ struct DurableOptions {
   std::string unknown_data = "refuse";
   // After the clock leaps ahead by more than this, while the server runs or since it last did,
   // nothing expires for an hour.
-  std::chrono::seconds believable_leap = std::chrono::hours(24);
+  std::chrono::seconds max_clock_leap = std::chrono::hours(24);
   std::chrono::milliseconds clean_up_interval = std::chrono::minutes(1);
 
   int max_unfinished_jobs = 10'000;  // all tenants together

@@ -11,15 +11,15 @@ void DurableJobs::CleanUp() {
   loop_.Post([this](JobStore& store) { return folder_.RemoveDeleted(store); },
              [this](const absl::Status&) { loop_.store().Forget().IgnoreError(); },
              GroupCommit::Room::kReserve);
-  if (!ClockIsBelieved()) return;
+  if (!ClockIsTrusted()) return;
   SweepShared();
   ExpireUploads();
   ExpireJobs();
   ExpireVolumes();
 }
 
-bool DurableJobs::ClockIsBelieved() {
-  const bool believed = clock_.Believes(Now(), std::chrono::steady_clock::now());
+bool DurableJobs::ClockIsTrusted() {
+  const bool believed = clock_.Trusts(Now(), std::chrono::steady_clock::now());
   if (believed) folder_.Touch(Now());  // else the next start would believe this clock
   if (!believed) {
     options_.on_warning(

@@ -18,7 +18,7 @@ constexpr int kBeatsBetweenCounts = 10, kCleanUpsBetweenSweeps = 60;
 
 }  // namespace
 
-void DurableJobs::LookAfterFleet() {
+void DurableJobs::MaintainFleet() {
   JobStore& store = loop_.store();
   if (store.fenced()) return Rejoin();
   Sync();
@@ -98,12 +98,12 @@ Flow DurableJobs::Beat() {
   const absl::Status status =
       co_await Commit([](JobStore& store) { return store.Beat(); }, GroupCommit::Room::kReserve);
   if (!status.ok() || stopping_) co_return;
-  LookAtMembers();
+  CheckMembers();
   QueueWaiting();
   if (++beats_ % kBeatsBetweenCounts == 0) CountFiles(loop_.store()).IgnoreError();
 }
 
-void DurableJobs::LookAtMembers() {
+void DurableJobs::CheckMembers() {
   const auto members = loop_.store().Members();
   if (!members.ok()) return;
   for (const Member& member : members_.Look(*members, journal_.owner(), Clock::now())) {
@@ -149,11 +149,11 @@ Flow DurableJobs::TakeOverFrom(Member member) {
 
 void DurableJobs::Rejoin() {
   active_.ForgetRuns();
-  uploads_.TakeAllAlong();
+  uploads_.DetachAllDecoders();
   Retry(false);
   members_.Forget();
   journal_.SetOwner(RandomId());
-  if (!loop_.store().Join(journal_.owner()).ok()) return;  // LookAfterFleet() tries again
+  if (!loop_.store().Join(journal_.owner()).ok()) return;  // MaintainFleet() tries again
   options_.on_warning("this server was silent for too long: others have taken over its jobs");
   Sync();
 }

@@ -50,7 +50,7 @@ std::string BodyOf(const NewJob& job) {
 }
 
 // Also accepts a repeat that states the options as the server returned them.
-bool AsksForTheSame(const JobRow& found, const NewJob& wanted) {
+bool IsSameRequest(const JobRow& found, const NewJob& wanted) {
   if (found.body == BodyOf(wanted)) return true;
   return found.volume == wanted.volume && found.options == wanted.options &&
          found.priority == wanted.priority && found.threads == wanted.threads;
@@ -119,7 +119,7 @@ absl::Status DurableJobs::StoreJob(JobStore& store, Creating& creating) {
   BCCSKEL_ASSIGN_OR_RETURN(const std::optional<JobRow> found,
                            store.FindJobOfRequest(creating.tenant, wanted.request_id));
   if (found.has_value()) {
-    if (!AsksForTheSame(*found, wanted)) {
+    if (!IsSameRequest(*found, wanted)) {
       return CallError(Reason::kRequestIdReused,
                        absl::StrCat("request_id ", wanted.request_id, " has made ", found->name,
                                     ", which is something else"),

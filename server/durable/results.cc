@@ -225,7 +225,7 @@ void DurableJobs::RunFailed(Run* run, const absl::Status& error) {
 void DurableJobs::ReceivingFailed(int64_t job, const absl::Status& error) {
   const JobRow& row = active_.Find(job)->row;
   if (const Session session = uploads_.Find(row.tenant, row.upload); session != nullptr) {
-    session->TakeAlong();
+    session->DetachDecoder();
   }
   if (!absl::IsInvalidArgument(error)) return;
   EndUpload(row.tenant, row.upload, JobState::kFailed, error);

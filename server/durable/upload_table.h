@@ -46,18 +46,18 @@ class UploadSession {
   // Needs: the right to write.
   UploadFile& file() { return *file_; }
 
-  void set_along(std::shared_ptr<Run> run) {
+  void set_decoder(std::shared_ptr<Run> run) {
     std::lock_guard lock(mutex_);
-    along_ = std::move(run);
+    decoder_ = std::move(run);
   }
-  std::shared_ptr<Run> along() const {
+  std::shared_ptr<Run> decoder() const {
     std::lock_guard lock(mutex_);
-    return along_;
+    return decoder_;
   }
   // Detaches the run that decodes the upload.
-  std::shared_ptr<Run> TakeAlong() {
+  std::shared_ptr<Run> DetachDecoder() {
     std::lock_guard lock(mutex_);
-    return std::exchange(along_, nullptr);
+    return std::exchange(decoder_, nullptr);
   }
 
  private:
@@ -65,10 +65,10 @@ class UploadSession {
 
   const UploadRow row_;
   mutable std::mutex mutex_;
-  bool writing_ = false;        // guarded by mutex_
-  uint64_t committed_;          // guarded by mutex_
-  Time used_;                   // guarded by mutex_
-  std::shared_ptr<Run> along_;  // guarded by mutex_
+  bool writing_ = false;          // guarded by mutex_
+  uint64_t committed_;            // guarded by mutex_
+  Time used_;                     // guarded by mutex_
+  std::shared_ptr<Run> decoder_;  // guarded by mutex_
   std::unique_ptr<UploadFile> file_;
 };
 
@@ -114,10 +114,10 @@ class UploadTable {
     if (found != sessions_.end() && found->second == session) sessions_.erase(found);
   }
   // Detaches the runs of all uploads.
-  void TakeAllAlong() {
+  void DetachAllDecoders() {
     std::lock_guard lock(mutex_);
     for (const auto& [key, session] : sessions_) {
-      if (session != nullptr) session->TakeAlong();
+      if (session != nullptr) session->DetachDecoder();
     }
   }
 

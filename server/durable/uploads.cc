@@ -69,7 +69,7 @@ Flow DurableJobs::CreateUpload(std::string tenant, NewUpload upload, Done<Upload
                         [done, error = file.status()](const absl::Status&) { done(error); });
   }
   const auto session = std::make_shared<UploadSession>(opening.row, *std::move(file), Now());
-  session->set_along(opening.run);
+  session->set_decoder(opening.run);
   uploads_.Add(session);
   done(InfoOf(opening.row));
 }
@@ -156,10 +156,10 @@ Flow DurableJobs::Append(std::string tenant, std::string upload, uint64_t offset
   status = CheckChunk(bytes, crc32c);
   if (status.ok()) status = session->file().Append(bytes);
   if (shared_ && absl::IsNotFound(status)) status = Superseded(session);
-  const std::shared_ptr<Run> along = status.ok() ? session->along() : nullptr;
-  if (along != nullptr) {
-    const absl::Status decoded =
-        co_await Await<absl::Status>([&](auto resume) { along->Append(std::move(bytes), resume); });
+  const std::shared_ptr<Run> decoder = status.ok() ? session->decoder() : nullptr;
+  if (decoder != nullptr) {
+    const absl::Status decoded = co_await Await<absl::Status>(
+        [&](auto resume) { decoder->Append(std::move(bytes), resume); });
     // Any other end of the decoding does not matter: the bytes are stored.
     if (absl::IsInvalidArgument(decoded)) status = InvalidVolume(std::string(decoded.message()));
   }
@@ -171,9 +171,9 @@ Flow DurableJobs::Append(std::string tenant, std::string upload, uint64_t offset
 void DurableJobs::SenderGone(const std::string& tenant, const std::string& upload) {
   const Session session = uploads_.Find(tenant, upload);
   if (session == nullptr) return;
-  const std::shared_ptr<Run> along = session->TakeAlong();
-  if (along == nullptr) return;
-  along->Cancel();
+  const std::shared_ptr<Run> decoder = session->DetachDecoder();
+  if (decoder == nullptr) return;
+  decoder->Cancel();
 }
 
 Flow DurableJobs::GetUpload(std::string tenant, std::string upload, Done<UploadInfo> done) {

@@ -14,7 +14,7 @@ struct DurableJobs::Finishing {
   Session session;
   VolumeRow volume;
   bool new_blob = true;                     // no volume had these bytes before
-  std::shared_ptr<Run> along;               // the run that has decoded the upload
+  std::shared_ptr<Run> decoder;             // the run that has decoded the upload
   std::optional<Step> step = std::nullopt;  // of the job that waits for it
 };
 
@@ -52,10 +52,10 @@ Flow DurableJobs::FinishUpload(std::string tenant, std::string upload, uint64_t 
   }
   Finishing finishing = {.session = session,
                          .volume = NewVolume(session->row(), digest->Hex()),
-                         .along = session->TakeAlong()};
+                         .decoder = session->DetachDecoder()};
   status = co_await Commit([&](JobStore& store) { return StoreVolume(store, finishing); });
   if (!status.ok()) {
-    session->set_along(finishing.along);
+    session->set_decoder(finishing.decoder);
     session->EndWriting(Now());
     co_return done(std::move(status));
   }
@@ -105,7 +105,7 @@ absl::Status DurableJobs::StoreVolumeOfJob(JobStore& store, Finishing& finishing
   BCCSKEL_ASSIGN_OR_RETURN(auto job, store.Find<JobRow>(upload.tenant, upload.job));
   if (!job.has_value() || job->state != JobState::kReceiving) return absl::OkStatus();
   job->volume = finishing.volume.name;
-  bool runs = active_.FindRun(finishing.along.get()) != nullptr;
+  bool runs = active_.FindRun(finishing.decoder.get()) != nullptr;
   if (shared_ && runs) {
     BCCSKEL_ASSIGN_OR_RETURN(
         const bool elsewhere,
@@ -122,13 +122,13 @@ void DurableJobs::VolumeStored(const Finishing& finishing) {
   DropSession(upload);
   if (!finishing.new_blob) quota_.GiveBack(upload.tenant, upload.size_bytes);
   if (finishing.step.has_value()) Apply(*finishing.step);
-  ActiveRun* const run = active_.FindRun(finishing.along.get());
+  ActiveRun* const run = active_.FindRun(finishing.decoder.get());
   const auto entered = [&finishing](JobState state) {
     return finishing.step.has_value() && finishing.step->job.state == state;
   };
   if (run != nullptr && !entered(JobState::kQueued)) {
     run->volume = finishing.volume.name;
-    finishing.along->FinishVolume();
+    finishing.decoder->FinishVolume();
   } else if (entered(JobState::kRunning)) {
     // The run has ended in the meantime.
     EnterState({finishing.step->job.number}, JobState::kQueued);

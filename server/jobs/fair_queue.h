@@ -35,7 +35,7 @@ template <typename Item, typename Clock = std::chrono::steady_clock>
 class FairQueue {
  public:
   using TimePoint = typename Clock::time_point;
-  static constexpr std::chrono::seconds kWorthOfPriority{30};
+  static constexpr std::chrono::seconds kWaitPerPriority{30};
 
   // The place of a waiting item.
   struct Entry {
@@ -61,7 +61,7 @@ class FairQueue {
     Tenant& tenant = tenants_[origin.tenant];
     if (tenant.waiting.empty()) tenant.next_turn = std::max(tenant.next_turn, time_);
     const auto priority = static_cast<int>(origin.priority);
-    const Rank rank = {came - priority * kWorthOfPriority, next_number_++};
+    const Rank rank = {came - priority * kWaitPerPriority, next_number_++};
     tenant.waiting.emplace(rank, std::move(item));
     ++size_;
     return {origin.tenant, rank};

@@ -61,7 +61,7 @@ class SkeletonizeWork final : public JobWork {
     // Denoising may close a cavity that was open when the memory was reserved.
     options.preparing.max_bricks = 2 * bricks_;
     BCCSKEL_ASSIGN_OR_RETURN(result_.skeleton, SkeletonizeWithin(*memory, *volume_, options,
-                                                                 context, ShellPointsTeller()));
+                                                                 context, ShellPointsCallback()));
     BCCSKEL_RETURN_IF_ERROR(CheckShellPoints());
     result_.skeleton.certificate.mask = mask_topology_;
     if (request_.thin_volume.has_value()) {
@@ -100,7 +100,7 @@ class SkeletonizeWork final : public JobWork {
     return absl::OkStatus();
   }
   // Stops passing on points once they exceed the reserved memory.
-  OnShellPoints ShellPointsTeller() {
+  OnShellPoints ShellPointsCallback() {
     if (request_.shell_points == ShellPointsWanted::kNone) return nullptr;
     const uint64_t limit = ShellPointsBytes(request_.shell_points, bricks_);
     return [this, limit](int32_t shell, const Volume& points) {

@@ -159,7 +159,7 @@ void Log(LogLevel level, std::string_view event, std::initializer_list<LogField>
   logger->log(spdlog_level, "{}", line);
 }
 
-void LogWhatLibrariesSay() {
+void LogLibraryMessages() {
   gpr_set_log_function(WriteGrpc);
   google::protobuf::SetLogHandler(WriteProtobuf);
 }

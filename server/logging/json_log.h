@@ -42,7 +42,7 @@ void Log(LogLevel level, std::string_view event, std::initializer_list<LogField>
 // From now on messages of gRPC and protobuf, such as a failed handshake or a text that is not
 // UTF-8, go to the log as events "grpc" and "protobuf". Otherwise these libraries write to standard
 // error, and a call waits until somebody reads that. Called once.
-void LogWhatLibrariesSay();
+void LogLibraryMessages();
 
 // Number of lines dropped since the process began.
 uint64_t DroppedLogLines();

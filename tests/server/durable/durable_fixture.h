@@ -76,7 +76,7 @@ class DurableTest : public testing::Test {
   DurableTest() {
     options_.data_directory = folder_ / "data";
     options_.algorithm_version = "1";
-    options_.believable_leap = std::chrono::hours(10'000);  // of Wait()
+    options_.max_clock_leap = std::chrono::hours(10'000);  // of Wait()
     options_.now = [this] { return std::chrono::system_clock::now() + later_.load(); };
   }
 

@@ -159,7 +159,7 @@ TEST_F(DurableResultsTest, KnowsNoVolumeWhoseFileIsGone) {
 
 TEST_F(DurableResultsTest, LetsNothingExpireByAClockThatHasLeapt) {
   Close();
-  options_.believable_leap = std::chrono::hours(24);
+  options_.max_clock_leap = std::chrono::hours(24);
   Open();
   const std::string job = CreateName("clinic", JobOf(Upload("clinic", "volume")));
   WaitForEnd("clinic", job);
@@ -180,7 +180,7 @@ TEST_F(DurableResultsTest, LetsNothingExpireByAClockThatHasLeapt) {
 TEST_F(DurableResultsTest, CleansUpAgainAfterAReadingFarAhead) {
   std::atomic<int> doubts = 0;
   Close();
-  options_.believable_leap = std::chrono::hours(24);
+  options_.max_clock_leap = std::chrono::hours(24);
   options_.on_warning = [&](const std::string&) { ++doubts; };
   Open();
   const auto wait_for_doubt = [&](int number) {
