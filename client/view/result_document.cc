@@ -53,7 +53,6 @@ Member<T> Optional(std::string_view name, T& to) {
 struct Unkept {
   bool there = false;
 };
-// A value together with its text.
 template <typename T>
 struct WithText {
   T& to;

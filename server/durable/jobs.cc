@@ -121,8 +121,8 @@ absl::Status DurableJobs::StoreJob(JobStore& store, Creating& creating) {
   if (found.has_value()) {
     if (!IsSameRequest(*found, wanted)) {
       return CallError(Reason::kRequestIdReused,
-                       absl::StrCat("request_id ", wanted.request_id, " has made ", found->name,
-                                    ", which is something else"),
+                       absl::StrCat("request_id ", wanted.request_id, " has created ", found->name,
+                                    ", a different job"),
                        {.key = "job", .value = found->name});
     }
     BCCSKEL_ASSIGN_OR_RETURN(creating.info, InfoOf(store, *found));

@@ -60,7 +60,7 @@ absl::StatusOr<ResultFile> ResultFile::Open(const std::string& path, const std::
 }
 
 absl::Status ResultFile::Damaged() const {
-  return absl::DataLossError(absl::StrCat(file_.path(), " is no result of this version"));
+  return absl::DataLossError(absl::StrCat(file_.path(), " is not a result of this version"));
 }
 
 absl::Status ResultFile::ReadPositions() {

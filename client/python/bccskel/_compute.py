@@ -49,10 +49,10 @@ def _warn(skeleton: Skeleton) -> Skeleton:
 def _lattice(server: Any, lattice: Lattice, placed: bool, threads: int, timeout: Optional[float],
              progress: Any, options: dict) -> Skeleton:
     if placed:
-        raise TypeError("a Lattice has its place and takes no spacing, origin, direction or axes")
+        raise TypeError("a Lattice has a placement and accepts no spacing, origin, direction or axes")
     for name in ("points", "spacing", "fill"):
         if name in options:
-            raise TypeError(f"a Lattice takes no option {name}")
+            raise TypeError(f"a Lattice accepts no option {name}")
     frame = Frame("xyz")
     texts = texts_of("skeletonize", "mesh", options, frame.to_xyz)
     outcome = _native.skeletonize_lattice(lattice._volume, texts,
