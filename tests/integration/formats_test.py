@@ -242,7 +242,7 @@ class FormatsTest(harness.TestCase):
                 self.folder = self.folders / shape
                 words = ("skeletonize", self.path("v.bccb"), "--local", "--json", "-o")
                 summary = json.loads(self.succeed(*words, self.path("s.precomputed/")))
-                self.assertIn("does not say its unit", summary["outputs"][0]["note"])
+                self.assertIn("does not state its unit", summary["outputs"][0]["note"])
                 document = json.loads((self.folder / "s.json").read_text())
                 vertices, edges, radii = read_precomputed(self.path("s.precomputed"), 1)
                 betti = document["certificate"]["skeleton"]
@@ -349,12 +349,12 @@ class FormatsTest(harness.TestCase):
         for words in (("labels", self.path("labels.npy")),
                       ("skeletonize", self.path("labels.npy"), "--local")):
             said = self.succeed(*words, "-o", self.path("n.precomputed"))
-            self.assertRegex(said, r"n\.precomputed[, (]+the input does not say its unit")
+            self.assertRegex(said, r"n\.precomputed[, (]+the input does not state its unit")
 
     def test_precomputed_skeletons_do_not_replace_the_info_of_a_volume(self):
         (self.folder / "x.precomputed").mkdir()
         (self.folder / "x.precomputed" / "info").write_text('{"@type":"other"}')
-        self.fail_with(8, "describes no skeletons", "skeletonize",
+        self.fail_with(8, "does not describe skeletons", "skeletonize",
                        self.folders / "ball" / "v.bccb", "--local",
                        "-o", self.path("x.precomputed"))
 

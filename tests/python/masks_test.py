@@ -152,7 +152,7 @@ class LabelsTest(harness.TestCase):
         with open(self.path("all.vtp"), "rb") as one, open(self.path("mine.vtp"), "rb") as other:
             self.assertEqual(one.read(), other.read())
         skeletons[3].save(self.path("three.html"))
-        with self.assertWarnsRegex(UserWarning, "does not say its unit"):
+        with self.assertWarnsRegex(UserWarning, "does not state its unit"):
             bccskel.save_labels(self.path("mine.precomputed"), skeletons)
 
     def test_labels_of_no_voxel_are_named(self):

@@ -118,7 +118,7 @@ class ReadTest(harness.TestCase):
         for ending in (".json", ".svg", ".html", ".exr"):
             with self.assertRaises((ValueError, NotImplementedError)):
                 read.save(self.path("mine" + ending))
-        with self.assertRaisesRegex(ValueError, "read from a file does not know the voxels"):
+        with self.assertRaisesRegex(ValueError, "read from a file does not contain the voxels"):
             read.curve_image()
 
     def test_it_has_the_roots_of_the_result(self):

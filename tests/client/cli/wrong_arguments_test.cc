@@ -70,7 +70,7 @@ const Wrong kWrong[] = {
     {"voxelize_to_a_skeleton", "voxelize a.off -o a.swc --points 9", ".bccb"},
     {"too_many_passes", "skeletonize a.off -o a.swc --denoise 17", "16"},
     {"prepared_voxels", "skeletonize a.tif -o a.swc --keep-largest --curve-image b.nrrd",
-     "as they are"},
+     "original voxels"},
     {"half_a_root", "skeletonize a.off -o a.swc --root 1,2", "node:7"},
     {"root_of_labels", "labels a.tif -o a.vtp --root node:1", "have many"},
     {"unknown_distance", "skeletonize a.off -o a.swc --distance chamfer5",

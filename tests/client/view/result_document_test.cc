@@ -134,7 +134,8 @@ TEST(ResultDocumentTest, NamesThePlaceOfADefect) {
       {SmallWith("\"object_points\":9", "\"points\":9"), "object_points is not there"},
       {SmallWith("\"object_points\":9", "\"order\":{\"roots\":[2]},\"object_points\":9"),
        "order names node 2; there are 2"},
-      {SmallWith("\"length\":2", "\"length\":2,\"births\":[1]"), "edges[0] is not with a birth"},
+      {SmallWith("\"length\":2", "\"length\":2,\"births\":[1]"),
+       "edges[0] is not an edge with as many births"},
       {SmallWith("\"length\":2", "\"length\":2,\"shifts\":[[0,0,32768],[0,0,0]]"),
        "edges[0].shifts[0][2] is not an integer in range"},
       // also where nothing is kept
