@@ -19,7 +19,7 @@ constexpr uint64_t kStepsOfABranch = 128;  // in a StopPoll: for the work of jud
 
 }  // namespace
 
-uint64_t BranchPruner::Run(const OnRemoved& on_removed) {
+uint64_t BranchPruner::Run(const OnRemoved& on_removed, TurnedTips* turned) {
   uint64_t removed = 0;
   JudgeAll();
   while (!turns_.empty() && !context_.ShouldStop()) {
@@ -33,10 +33,18 @@ uint64_t BranchPruner::Run(const OnRemoved& on_removed) {
       turns_.emplace(*now, end);
       continue;
     }
+    if (turned != nullptr) NoteTurned(branch, *turned);
     for (LatticePoint p : Remove(branch)) on_removed(p, worth);
     ++removed;
   }
   return removed;
+}
+
+void BranchPruner::NoteTurned(const FreeBranch& branch, TurnedTips& turned) const {
+  const std::vector<LatticePoint> cluster = ClusterOf(*branch.junction);
+  if (cluster.size() >= kMostClusterPoints) return;
+  turned.Note(set_, branch, cluster,
+              [&](const FreeBranch& other) { return WorthOf(other, *other.junction); });
 }
 
 void BranchPruner::JudgeAll() {

@@ -14,7 +14,7 @@
 #include "core/pruning/prune.h"
 #include "core/pruning/significance.h"
 #include "core/pruning/thin_set.h"
-#include "core/pruning/tips.h"
+#include "core/pruning/turned_tips.h"
 
 namespace bccskel {
 
@@ -44,11 +44,14 @@ class BranchPruner {
         keep_(keep),
         context_(context) {}
 
-  // Returns the number of branches removed. Stops early if the context requests it.
-  uint64_t Run(const OnRemoved& on_removed = [](LatticePoint, double) {});
+  // Returns the number of branches removed. `turned`, if given, receives what turns aside where
+  // they are removed. Stops early if the context requests it.
+  uint64_t Run(
+      const OnRemoved& on_removed = [](LatticePoint, double) {}, TurnedTips* turned = nullptr);
 
  private:
   bool IsEnd(LatticePoint p) const { return set_.Contains(p) && set_.Degree(p) == 1; }
+  void NoteTurned(const FreeBranch& branch, TurnedTips& turned) const;
   void JudgeAll();
   void Judge(const FreeBranch& branch);
   void JudgeAround(const std::set<LatticePoint>& places);

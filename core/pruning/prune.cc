@@ -17,6 +17,7 @@
 #include "core/pruning/surface_noise.h"
 #include "core/pruning/thin_set.h"
 #include "core/pruning/tips.h"
+#include "core/pruning/turned_tips.h"
 
 namespace bccskel {
 namespace {
@@ -153,10 +154,14 @@ absl::StatusOr<ThinSkeleton> Prune(const ThinSkeleton& curves, const PrunedObjec
   }
   Significance significance(in.object, noise, std::move(way_on), std::move(firm_depth),
                             space.window());
+  TurnedTips turned;
   if (options.rule != PruningRule::kNone) {
     const double threshold = ThresholdOf(options, curves.points.placement());
-    BranchPruner(set, significance, options.rule, threshold, kept, context).Run();
-    if (options.rule == PruningRule::kSignificance) {
+    const bool by_shape = options.rule == PruningRule::kSignificance;
+    BranchPruner(set, significance, options.rule, threshold, kept, context)
+        .Run([](LatticePoint, double) {}, by_shape ? &turned : nullptr);
+    turned.DropFrom(threshold);
+    if (by_shape) {
       CollapsePaths(set, significance, threshold, kept);
     }
     if (absl::Status stop = context.StopStatus(); !stop.ok()) return stop;
@@ -170,7 +175,7 @@ absl::StatusOr<ThinSkeleton> Prune(const ThinSkeleton& curves, const PrunedObjec
   absl::Status placed;
   const auto place_tips = [&](const exec::Context& own) {
     if (options.tips != TipPlacement::kRidge) return;
-    placed = PlaceTips(set, in.object, space, in.radius, kept, noise, own);
+    placed = PlaceTips(set, in.object, space, in.radius, kept, noise, turned, own);
   };
   RunBoth(find_levels, place_tips, context.WorkersFor(set.Ends().size(), Significance::kWork),
           context);

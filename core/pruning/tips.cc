@@ -14,6 +14,7 @@
 #include "core/pruning/grow_along.h"
 #include "core/pruning/largest_run.h"
 #include "core/pruning/last_limb.h"
+#include "core/pruning/limb_anchor.h"
 
 namespace bccskel {
 namespace {
@@ -21,19 +22,8 @@ namespace {
 // How much of the way along the limb a tip is worth. A box's corner, seen along the box, falls by 1
 // like a round cap, the end of a pointed limb by less until its tip.
 constexpr double kSlope = 0.75;
-constexpr double kRidgeSlope = 0.3;    // what falls by less is a ridge for sure
 constexpr double kGainBySteps = 0.42;  // a tip farther out is better by so many surface steps
 constexpr double kGainByNoise = 0.06;  // and this share of the noise allowance, or noise made it
-constexpr double kAnchorRadii = 4;     // how far back the anchor lies, in radii
-constexpr double kAnchorSteps = 5;     // and in steps
-constexpr double kStraightRadii = 2;   // what is shorter gives no direction, bent or not
-constexpr double kBendRadii = 0.35;    // a limb bends that leaves the straight way by so many radii
-constexpr double kBendMargin = 2;      // and lattice units
-constexpr size_t kBendStride = 8;      // points between checks
-constexpr size_t kBendSamples = 16;
-constexpr double kLeastAim = 4;  // from the anchor to what gives the limb its direction, in steps
-constexpr double kCutRadii = 1.75;  // a cut takes the way into a cap or a corner at most, in radii
-constexpr double kCutMargin = 6;    // and in lattice units
 constexpr double kHairLength = 6;  // in lattice units; longer ends of single points are thin limbs,
 constexpr double kHairRadii = 2;   // and what is longer by the limb's radius
 constexpr size_t kHeadingPoints = 10;  // the way on is that of the last points
@@ -44,16 +34,11 @@ constexpr double kPatience = 4;        // how far below the best a growing tip m
 constexpr int kMajority = 7;           // of 14 neighbors, with the point itself
 constexpr int kThinner = 3;            // in thin limbs: so many fewer than their points have
 
-double MedianOf(std::vector<float> values) {  // at least one
-  const auto median = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, median);
-  return *median;
-}
-
 class TipPlacer {
  public:
   TipPlacer(ThinSet& set, const Volume& object, const Volume& space, const ExactRadius& radius,
-            const PointSet& keep, const SurfaceNoise& noise, const exec::Context& context)
+            const PointSet& keep, const SurfaceNoise& noise, const TurnedTips& turned,
+            const exec::Context& context)
       : set_(set),
         bricks_(object),
         radius_(radius),
@@ -62,6 +47,7 @@ class TipPlacer {
         flat_(object, searching_, depth_),  // it ends at the border
         last_limb_(object, noise),
         keep_(keep),
+        turned_(turned),
         balls_(set, AxisScaleOf(object.placement()), context),
         step_(std::ranges::max(AxisScaleOf(object.placement()))),
         least_gain_(kGainBySteps * noise.step + kGainByNoise * noise.thin),
@@ -72,7 +58,8 @@ class TipPlacer {
     FreeBranch branch = BranchFrom(set_, end);
     FindRoot(branch);
     if (CutFlat(branch)) return;
-    anchor_ = TakeAnchor(branch);
+    CutTurned(branch);
+    anchor_ = TakeAnchor(set_, step_, branch);
     if (branch.points.empty()) return;
     path_.assign(branch.points.rbegin(), branch.points.rend());
     FindMajority();
@@ -101,6 +88,16 @@ class TipPlacer {
     root_radius_ = set_.RadiusOf(root_);
   }
 
+  // Where limbs grow on, they grow straight on.
+  void CutTurned(FreeBranch& branch) {
+    const std::span<const LatticePoint> turned = turned_.At(branch.points);
+    const auto is_kept = [&](LatticePoint p) { return keep_.contains(p); };
+    if (turned.empty() || std::ranges::any_of(turned, is_kept)) return;
+    for (LatticePoint p : turned) set_.Remove(p);
+    branch = BranchFrom(set_, branch.points[turned.size()]);
+    FindRoot(branch);
+  }
+
   // In flat limbs distances say nothing of where they end.
   bool CutFlat(const FreeBranch& branch) {
     path_.assign(branch.points.rbegin(), branch.points.rend());
@@ -125,70 +122,7 @@ class TipPlacer {
     return GrowAlong(tip.middle, tip.from, may_add, path_, set_);
   }
 
-  // Finds the anchor and leaves the points between the end and it. Where the limb bends, the anchor
-  // lies no farther back than the limb is straight.
-  LatticePoint TakeAnchor(FreeBranch& branch) const {
-    std::vector<LatticePoint>& points = branch.points;
-    const size_t front = RidgeEnd(points);
-    double length = 0;
-    float radius = set_.RadiusOf(points[0]);
-    for (size_t n = 1; n < points.size(); ++n) {
-      length += set_.Between(points[n - 1], points[n]);
-      radius = std::max(radius, set_.RadiusOf(points[n]));
-      const bool is_far = length >= kAnchorRadii * radius + kAnchorSteps * step_;
-      const bool may_bend =
-          length >= kStraightRadii * set_.RadiusOf(points[n]) + kAnchorSteps * step_;
-      const bool is_checked = may_bend && front < n && n % kBendStride == 0;
-      if (!is_far && !(is_checked && Bends(points, front, n))) continue;
-      const LatticePoint anchor = points[n];
-      points.resize(n);
-      return anchor;
-    }
-    if (branch.junction.has_value()) return *branch.junction;
-    const LatticePoint middle = points[points.size() / 2];
-    points.resize(points.size() / 2);
-    return middle;
-  }
-
-  // Position of the point, in a cap at the end at most, up to which the radius certainly follows a
-  // ridge: beyond, the path may turn off into a corner. The end comes first.
-  size_t RidgeEnd(std::span<const LatticePoint> points) const {
-    size_t ridge_end = 0;
-    double length = 0, most = set_.RadiusOf(points[0]);
-    for (size_t n = 1; n < points.size(); ++n) {
-      length += set_.Between(points[n - 1], points[n]);
-      const double radius = set_.RadiusOf(points[n]);
-      if (set_.Between(points[0], points[n]) > kCutRadii * radius + kCutMargin) break;
-      if (radius - kRidgeSlope * length <= most) continue;
-      ridge_end = n;
-      most = radius - kRidgeSlope * length;
-    }
-    return ridge_end;
-  }
-
-  // Whether the points between two positions leave the straight way by more than a share of their
-  // median radius.
-  bool Bends(std::span<const LatticePoint> points, size_t front, size_t back) const {
-    const LatticePoint a = points[front], b = points[back];
-    if (set_.Between(a, b) < kLeastAim * step_) return false;
-    std::vector<float> radii;
-    double farthest = 0;  // squared
-    const size_t stride = (back - front) / kBendSamples + 1;
-    for (size_t n = front; n < back; n += stride) {
-      radii.push_back(set_.RadiusOf(points[n]));
-      const double way = set_.Between(a, points[n]), along = AlongFrom(a, b, points[n]);
-      farthest = std::max(farthest, way * way - along * along);
-    }
-    const double allowed = kBendRadii * MedianOf(std::move(radii)) + kBendMargin;
-    return farthest > allowed * allowed;
-  }
-
-  // How far p lies from a in the direction of q, by the law of cosines.
-  double AlongFrom(LatticePoint a, LatticePoint q, LatticePoint p) const {
-    const double ap = set_.Between(a, p), pq = set_.Between(p, q), aq = set_.Between(a, q);
-    return (ap * ap + aq * aq - pq * pq) / (2 * aq);
-  }
-  double Along(LatticePoint p) const { return AlongFrom(anchor_, aim_, p); }
+  double Along(LatticePoint p) const { return AlongFrom(set_, anchor_, aim_, p); }
 
   double Merit(LatticePoint p, double slope = kSlope) { return slope * Along(p) + depth_.At(p); }
   // Merit() is no more: sums and products of more are no less, in floating point, too.
@@ -366,6 +300,7 @@ class TipPlacer {
   FlatEnd flat_;
   LastLimb last_limb_;
   const PointSet& keep_;
+  const TurnedTips& turned_;
   BallIndex balls_;
   const double step_;  // the longest step along an axis, in lattice units
   const double least_gain_;
@@ -385,10 +320,10 @@ class TipPlacer {
 
 absl::Status PlaceTips(ThinSet& set, const Volume& object, const Volume& space,
                        const ExactRadius& radius, const PointSet& keep, const SurfaceNoise& noise,
-                       const exec::Context& context) {
+                       const TurnedTips& turned, const exec::Context& context) {
   const std::vector<LatticePoint> ends = set.Ends();
   if (ends.empty()) return absl::OkStatus();
-  TipPlacer placer(set, object, space, radius, keep, noise, context);
+  TipPlacer placer(set, object, space, radius, keep, noise, turned, context);
   for (LatticePoint end : ends) {
     if (context.ShouldStop()) return context.StopStatus();
     placer.Place(end);

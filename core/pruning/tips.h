@@ -6,6 +6,7 @@
 #include "core/exec/context.h"
 #include "core/pruning/surface_noise.h"
 #include "core/pruning/thin_set.h"
+#include "core/pruning/turned_tips.h"
 #include "core/volume/volume.h"
 
 namespace bccskel {
@@ -15,13 +16,14 @@ namespace bccskel {
 // folder); for flat limbs, see flat_end.h. Distances are measured without pits, and no tip lies on
 // a bump (FillPits(), Denoise()). A tip is never cut back beyond where its limb begins
 // (LargestRun(), LastLimb). It grows by at most the radius there plus 6 units, and not into the
-// ball of another branch. Points of `keep` are not cut off.
+// ball of another branch. Points of `keep` are not cut off. What turns aside at the ends of limbs
+// that are not flat is removed first (TurnedTips).
 // Needs:  `radius` belongs to `object`. `space` is the object, or the object with points beyond its
 //         border, into which no tip grows. `noise` is that of its surface.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
 absl::Status PlaceTips(ThinSet& set, const Volume& object, const Volume& space,
                        const ExactRadius& radius, const PointSet& keep, const SurfaceNoise& noise,
-                       const exec::Context& context);
+                       const TurnedTips& turned, const exec::Context& context);
 
 }  // namespace bccskel
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "core/distance/exact_radius.h"
@@ -170,13 +171,17 @@ TEST_P(PruningLaw, KeepsTopologyAndLeavesNothingSimple) {
 }
 INSTANTIATE_TEST_SUITE_P(Seeds, PruningLaw, testing::Range<uint64_t>(0, 4, test::kStride));
 
-// Where |x|, |y| and |z| of the turned points are: a test of them.
+std::array<double, 3> Turned(double angle, double x, double y, double z) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  const double a = c * (x - 40) - s * (y - 40), b = s * (x - 40) + c * (y - 40);
+  return {c * a - s * (z - 40), b, s * a + c * (z - 40)};
+}
+
+// Where the coordinates of the turned points pass the test.
 template <typename IsIn>
 Volume TurnedSolid(double angle, IsIn is_in) {
-  const double c = std::cos(angle), s = std::sin(angle);
   return test::VolumeWhere({40, 40, 40}, [&](int32_t x, int32_t y, int32_t z) {
-    const double a = c * (x - 40) - s * (y - 40), b = s * (x - 40) + c * (y - 40);
-    return is_in(c * a - s * (z - 40), b, s * a + c * (z - 40));
+    return std::apply(is_in, Turned(angle, x, y, z));
   });
 }
 
@@ -209,6 +214,22 @@ TEST(PrunedCompactObject, WithOneThinSpineHasItsEndInEveryPose) {
     ASSERT_EQ(EndsOf(graph), 2u) << angle;
     const auto radius = [&](const SkeletonNode& node) { return graph.RadiusOf(node.at); };
     EXPECT_LT(radius(*std::ranges::min_element(graph.nodes, {}, radius)), 5) << angle;
+  }
+}
+
+// Neither ear sticks out enough, so the limb ends between them, not in one.
+TEST(PrunedLimb, EndsInTheMiddleOfAHeadWithTwoEarsInEveryPose) {
+  for (const double angle : {0.0, 0.3, 0.55, 0.8}) {
+    const Volume object = TurnedSolid(angle, [](double x, double y, double z) {
+      return (x > -36 && x < 12 && std::hypot(y, z) <= 7) || std::hypot(x - 12, y, z) <= 14 ||
+             std::hypot(x - 20, std::abs(y) - 14, z) <= 6;
+    });
+    const SkeletonGraph graph = Skeletonize(object, {}, {})->graph;
+    ASSERT_EQ(EndsOf(graph), 2u) << angle;
+    for (const SkeletonNode& node : graph.nodes) {
+      const WorldPoint at = graph.PositionOf(node.at);
+      EXPECT_LT(std::abs(Turned(angle, 2 * at[0], 2 * at[1], 2 * at[2])[1]), 3) << angle;
+    }
   }
 }
 

@@ -1,0 +1,80 @@
+#include "core/pruning/limb_anchor.h"
+
+#include <span>
+#include <utility>
+
+namespace bccskel {
+namespace {
+
+constexpr double kAnchorRadii = 4;    // how far back the anchor lies, in radii
+constexpr double kAnchorSteps = 5;    // and in steps
+constexpr double kStraightRadii = 2;  // what is shorter gives no direction, bent or not
+constexpr double kBendRadii = 0.35;   // a limb bends that leaves the straight way by so many radii
+constexpr double kBendMargin = 2;     // and lattice units
+constexpr size_t kBendStride = 8;     // points between checks
+constexpr size_t kBendSamples = 16;
+
+// Position of the point, in a cap at the end at most, up to which the radius certainly follows a
+// ridge: beyond, the path may turn off into a corner. The end comes first.
+size_t RidgeEnd(const ThinSet& set, std::span<const LatticePoint> points) {
+  size_t ridge_end = 0;
+  double length = 0, most = set.RadiusOf(points[0]);
+  for (size_t n = 1; n < points.size(); ++n) {
+    length += set.Between(points[n - 1], points[n]);
+    const double radius = set.RadiusOf(points[n]);
+    if (set.Between(points[0], points[n]) > kCutRadii * radius + kCutMargin) break;
+    if (radius - kRidgeSlope * length <= most) continue;
+    ridge_end = n;
+    most = radius - kRidgeSlope * length;
+  }
+  return ridge_end;
+}
+
+// Whether points, the ends of which are this far apart at least, leave the straight way by more
+// than a share of their median radius.
+bool Bends(const ThinSet& set, std::span<const LatticePoint> points, double least) {
+  const LatticePoint a = points.front(), b = points.back();
+  if (set.Between(a, b) < least) return false;
+  std::vector<float> radii;
+  double farthest = 0;  // squared
+  const size_t last = points.size() - 1, stride = last / kBendSamples + 1;
+  for (size_t n = 0; n < last; n += stride) {
+    radii.push_back(set.RadiusOf(points[n]));
+    const double way = set.Between(a, points[n]), along = AlongFrom(set, a, b, points[n]);
+    farthest = std::max(farthest, way * way - along * along);
+  }
+  const double allowed = kBendRadii * MedianOf(std::move(radii)) + kBendMargin;
+  return farthest > allowed * allowed;
+}
+
+}  // namespace
+
+LatticePoint TakeAnchor(const ThinSet& set, double step, FreeBranch& branch) {
+  std::vector<LatticePoint>& points = branch.points;
+  const size_t front = RidgeEnd(set, points);
+  double length = 0;
+  float radius = set.RadiusOf(points[0]);
+  for (size_t n = 1; n < points.size(); ++n) {
+    length += set.Between(points[n - 1], points[n]);
+    radius = std::max(radius, set.RadiusOf(points[n]));
+    const bool is_far = length >= kAnchorRadii * radius + kAnchorSteps * step;
+    const bool may_bend = length >= kStraightRadii * set.RadiusOf(points[n]) + kAnchorSteps * step;
+    const bool is_checked = may_bend && front < n && n % kBendStride == 0;
+    const auto between = std::span(points).subspan(front, is_checked ? n - front + 1 : 0);
+    if (!is_far && !(is_checked && Bends(set, between, kLeastAim * step))) continue;
+    const LatticePoint anchor = points[n];
+    points.resize(n);
+    return anchor;
+  }
+  if (branch.junction.has_value()) return *branch.junction;
+  const LatticePoint middle = points[points.size() / 2];
+  points.resize(points.size() / 2);
+  return middle;
+}
+
+double AlongFrom(const ThinSet& set, LatticePoint a, LatticePoint q, LatticePoint p) {
+  const double ap = set.Between(a, p), pq = set.Between(p, q), aq = set.Between(a, q);
+  return (ap * ap + aq * aq - pq * pq) / (2 * aq);
+}
+
+}  // namespace bccskel

@@ -1,0 +1,39 @@
+#ifndef BCCSKEL_CORE_PRUNING_LIMB_ANCHOR_H_
+#define BCCSKEL_CORE_PRUNING_LIMB_ANCHOR_H_
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "core/pruning/branch_walk.h"
+#include "core/pruning/thin_set.h"
+
+namespace bccskel {
+
+// A tip cuts off the way into a cap or a corner at most: so many radii and lattice units.
+inline constexpr double kCutRadii = 1.75;
+inline constexpr double kCutMargin = 6;
+// What falls by less per unit is a ridge for sure.
+inline constexpr double kRidgeSlope = 0.3;
+// From the anchor to what gives the limb its direction, in steps of the sampling.
+inline constexpr double kLeastAim = 4;
+
+// Where the direction of a limb is measured from: four radii and 5 steps back from its end, or the
+// junction, or the middle of a path without one. Where the limb bends, no farther back than it is
+// straight. Leaves the branch the points between its end and the anchor.
+// Shapes: `step` is the longest step along an axis, in lattice units.
+LatticePoint TakeAnchor(const ThinSet& set, double step, FreeBranch& branch);
+
+// How far p lies from a in the direction of q, by the law of cosines.
+double AlongFrom(const ThinSet& set, LatticePoint a, LatticePoint q, LatticePoint p);
+
+// Needs: at least one value.
+inline double MedianOf(std::vector<float> values) {
+  const auto median = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, median);
+  return *median;
+}
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_PRUNING_LIMB_ANCHOR_H_

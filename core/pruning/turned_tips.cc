@@ -1,0 +1,108 @@
+#include "core/pruning/turned_tips.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "core/distance/places.h"
+
+namespace bccskel {
+namespace {
+
+constexpr double kStraight = 0.77;  // cosine of 40 degrees
+constexpr double kLongest = 1.6;    // in radii of the fork
+constexpr double kLimbRadii = 2;    // the limb goes on for so many
+constexpr double kLimbWorth = 2;    // and is worth so much more
+constexpr double kTwin = 1.15;      // how much more than the branch that goes a twin may be worth
+
+// A curve that leads away from a fork.
+struct Arm {
+  LatticePoint fork;
+  std::vector<LatticePoint> points;  // from the fork on
+  bool is_free = false;              // ends with an end
+  double worth = 0;                  // of a free one
+};
+
+Arm ArmFrom(const ThinSet& set, LatticePoint fork, LatticePoint first) {
+  Arm arm{fork, {}, false, 0};
+  LatticePoint previous = fork, p = first;
+  NeighborMask mask = set.NeighborsOf(p);
+  while (IsPair(mask)) {
+    arm.points.push_back(p);
+    const LatticePoint next = NextPoint(p, mask, previous);
+    previous = p;
+    p = next;
+    mask = set.NeighborsOf(p);
+  }
+  arm.is_free = std::has_single_bit(mask);
+  if (arm.is_free) arm.points.push_back(p);
+  return arm;
+}
+
+std::vector<Arm> ArmsOf(const ThinSet& set, std::span<const LatticePoint> cluster) {
+  std::vector<Arm> arms;
+  for (LatticePoint p : cluster) {
+    ForEachNeighbor(p, set.NeighborsOf(p), [&](LatticePoint q) {
+      if (set.Degree(q) <= 2) arms.push_back(ArmFrom(set, p, q));
+    });
+  }
+  return arms;
+}
+
+// The limb's way into the fork, over two radii; none where it is shorter.
+std::optional<Coordinates> WayOfLimb(const ThinSet& set, const Arm& limb, LatticePoint fork) {
+  const double far = kLimbRadii * set.RadiusOf(fork);
+  for (LatticePoint p : limb.points) {
+    if (set.Between(p, fork) >= far) return set.Way(p, fork);
+  }
+  return std::nullopt;
+}
+
+bool TurnsAside(const ThinSet& set, const Arm& arm, const Arm& limb) {
+  const std::optional<Coordinates> in = WayOfLimb(set, limb, arm.fork);
+  const Coordinates out = set.Way(arm.fork, arm.points.back());
+  const double length = std::sqrt(Dot(out, out));
+  if (!in.has_value() || length > kLongest * set.RadiusOf(arm.fork)) return false;
+  const double cosine = Dot(*in, out) / (std::sqrt(Dot(*in, *in)) * length);
+  return cosine > 0 && cosine < kStraight;
+}
+
+}  // namespace
+
+void TurnedTips::Note(const ThinSet& set, const FreeBranch& going,
+                      std::span<const LatticePoint> cluster, const WorthOf& worth_of) {
+  std::vector<Arm> arms = ArmsOf(set, cluster);
+  if (arms.size() != 3) return;
+  std::erase_if(arms, [&](const Arm& arm) { return arm.points.back() == going.points[0]; });
+  if (arms.size() != 2 || (!arms[0].is_free && !arms[1].is_free)) return;
+  for (Arm& arm : arms) {
+    if (arm.is_free) arm.worth = worth_of({{arm.points.rbegin(), arm.points.rend()}, arm.fork});
+  }
+  const bool second = !arms[0].is_free || (arms[1].is_free && arms[1].worth < arms[0].worth);
+  const Arm &aside = arms[second ? 1 : 0], &limb = arms[second ? 0 : 1];
+  if (limb.is_free && limb.worth < kLimbWorth * aside.worth) return;
+  if (!TurnsAside(set, aside, limb)) return;
+  tips_[aside.points.back()].push_back({{aside.points.rbegin(), aside.points.rend()}, aside.worth});
+}
+
+void TurnedTips::DropFrom(double threshold) {
+  for (auto& [end, tips] : tips_) {
+    std::erase_if(tips, [&](const Tip& tip) { return tip.worth >= kTwin * threshold; });
+  }
+}
+
+std::span<const LatticePoint> TurnedTips::At(std::span<const LatticePoint> branch) const {
+  std::span<const LatticePoint> longest;
+  const auto found = tips_.find(branch.front());
+  if (found == tips_.end()) return longest;
+  for (const Tip& tip : found->second) {
+    const bool fits = tip.points.size() + 1 < branch.size() && tip.points.size() > longest.size();
+    if (fits && std::ranges::equal(tip.points, branch.first(tip.points.size()))) {
+      longest = tip.points;
+    }
+  }
+  return longest;
+}
+
+}  // namespace bccskel
