@@ -78,6 +78,7 @@ absl::Status ParseLine(std::string_view text, PlyHeader& header) {
   if (!line.NextLine()) return absl::OkStatus();
   const std::string_view keyword = line.Token();
   if (keyword == "ply" || keyword == "comment" || keyword == "obj_info") return absl::OkStatus();
+  if (keyword == "Created") return absl::OkStatus();  // a remark of Blender 2.4
   if (keyword == "format") {
     BCCSKEL_ASSIGN_OR_RETURN(header.encoding, ParseEncoding(line.Token()));
     return absl::OkStatus();

@@ -97,6 +97,17 @@ TEST(MeshFile, StepsOverUnknownElementsAndListsOfPly) {
   EXPECT_EQ(mesh->triangles[0], (TriangleMesh::Triangle{2, 1, 0}));
 }
 
+TEST(MeshFile, StepsOverTheRemarkThatBlenderWroteIntoPly) {
+  const auto mesh = ParseMesh(
+      "ply\nformat ascii 1.0\nCreated by Blender3D 247 - www.blender.org, source file: \n"
+      "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uchar uint vertex_indices\nend_header\n"
+      "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
+      "a.ply");
+  ASSERT_TRUE(mesh.ok()) << mesh.status();
+  EXPECT_EQ(mesh->triangles[0], (TriangleMesh::Triangle{0, 1, 2}));
+}
+
 TEST(MeshFile, ReadsABinaryStlWhoseHeaderSaysSolid) {
   std::string bytes = testing::ToBinaryStl(testing::Box({0, 0, 0}, {1, 1, 1}));
   bytes.replace(0, 6, "solid ");
