@@ -144,18 +144,27 @@ std::vector<uint32_t> ReversesOf(const std::vector<Triangle>& triangles) {
   }
   std::ranges::sort(sorted);
   std::vector<uint32_t> reverses(triangles.size());
-  for (size_t n = 0; n < sorted.size(); n += 2) {
-    const auto& [a, first] = sorted[n];
-    const auto& [b, second] = sorted[n + 1];
-    if (a[0] != b[0] || a[1] != b[1] || a[2] != b[2] || a[3] == b[3]) return {};
-    reverses[first] = second;
-    reverses[second] = first;
+  const auto is_other = [](const Corners& a, const Corners& b) {
+    return a[0] != b[0] || a[1] != b[1] || a[2] != b[2];
+  };
+  for (size_t begin = 0; begin < sorted.size();) {
+    size_t end = begin;
+    while (end < sorted.size() && !is_other(sorted[begin].first, sorted[end].first)) ++end;
+    for (const size_t half = (end - begin) / 2; begin < end - half; ++begin) {
+      if (begin + half == end) return {};
+      const auto& [a, first] = sorted[begin];
+      const auto& [b, second] = sorted[begin + half];
+      if (a[3] == b[3]) return {};
+      reverses[first] = second;
+      reverses[second] = first;
+    }
+    begin = end;
   }
   return reverses;
 }
 
-// One of each two facets that are each other's reverse, the first in the file, where that leaves a
-// closed surface: a sheet that folds back onto itself encloses nothing.
+// One of each two facets that are each other's reverse, the first in the file. What that leaves may
+// be open: both sides together would enclose nothing by any rule.
 Reading ReadOneSide(Reading reading, MeshReport& report) {
   const std::vector<uint32_t> reverses = ReversesOf(reading.mesh.triangles);
   if (reverses.empty()) return reading;
@@ -165,7 +174,6 @@ Reading ReadOneSide(Reading reading, MeshReport& report) {
   }
   const uint64_t count = kept.size();
   Reading one_side = Read({reading.mesh.vertices, std::move(kept)});
-  if (one_side.closure() == SurfaceClosure::kOpen) return reading;
   report.two_sided_triangles = count;
   return one_side;
 }

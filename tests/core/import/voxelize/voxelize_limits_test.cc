@@ -74,6 +74,23 @@ TEST(VoxelizePoints, AreMetWhereEveryFacetIsThereFromBothSides) {
   }
 }
 
+// As furniture of CAD programs has it: one facet is missing, another is there twice.
+TEST(VoxelizePoints, AreMetWhereTheFacetsOfAnOpenMeshAreThereFromBothSides) {
+  TriangleMesh open = Sphere({0, 0, 0}, 1);
+  open.triangles.pop_back();
+  const VoxelizeResult one = Voxelized(open, {.points = 2000, .fill = FillRule::kWinding});
+  TriangleMesh twice = open;
+  const TriangleMesh flipped = testing::Flipped(open);
+  twice.triangles.insert(twice.triangles.end(), flipped.triangles.begin(), flipped.triangles.end());
+  const VoxelizeResult both = Voxelized(twice, {.points = 2000, .fill = FillRule::kWinding});
+  EXPECT_EQ(both.volume, one.volume);
+  twice.triangles.push_back(open.triangles.front());
+  twice.triangles.push_back(flipped.triangles.front());
+  const auto refused = Voxelize(twice, {.points = 2000}, {});
+  EXPECT_THAT(refused.status().message(), HasSubstr("--fill winding"));
+  EXPECT_TRUE(Voxelize(twice, {.points = 2000, .fill = FillRule::kWinding}, {}).ok());
+}
+
 TEST(VoxelizePoints, SaysSoWhereWholeLayersOfACubeLeaveNoCountNearby) {
   const VoxelizeResult result = Voxelized(Box({0, 0, 0}, {1, 1, 1}), {.points = 40});
   const auto count = static_cast<double>(result.volume.PointCount());
@@ -223,12 +240,11 @@ TEST(VoxelizeRefusal, OfMeshesThatEncloseNothing) {
   }
 }
 
-TEST(VoxelizeRefusal, OfSheetsThatFoldBackOntoThemselves) {
-  // Two triangles back to back, tilted: closed, oriented, no volume.
+TEST(VoxelizeRefusal, OfSheetsThatAreThereFromBothSides) {
   const TriangleMesh sheet = {{{0, 0, 0}, {1, 0, 0.3}, {0, 1, 0.4}}, {{0, 1, 2}, {0, 2, 1}}};
   const absl::Status status = Refusal(sheet, {.points = 100});
-  EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
-  EXPECT_THAT(status.message(), HasSubstr("nothing enclosed"));
+  EXPECT_EQ(status.code(), absl::StatusCode::kFailedPrecondition);
+  EXPECT_THAT(status.message(), HasSubstr("3 boundary edges"));
 }
 
 TEST(VoxelizeRefusal, OfSizesThatADoubleCannotHold) {
