@@ -32,8 +32,12 @@ int64_t CountAmbiguousShells(const MeshReport& mesh) {
 absl::StatusOr<FillRule> ChooseFillRule(const MeshReport& mesh, FillRule wanted) {
   const bool open = mesh.closure == SurfaceClosure::kOpen;
   if (open && wanted == FillRule::kAuto) {
+    const char* const what = mesh.two_sided_triangles == 0
+                                 ? "the mesh"
+                                 : "nothing enclosed: every triangle is there from both sides, and "
+                                   "one side alone";
     return absl::FailedPreconditionError(absl::StrFormat(
-        "the mesh is not closed (%s); repair it or fill it by winding number (--fill winding)",
+        "%s is not closed (%s); repair it or fill it by winding number (--fill winding)", what,
         DescribeDefects(mesh)));
   }
   if (open && wanted == FillRule::kParity) {

@@ -63,7 +63,7 @@ TEST(NarrowLoops, AreCountedByTheWidthOfTheirTunnels) {
 
 TEST(NarrowLoops, AreNotedWithTheOptionThatClosesThem) {
   const SkeletonizeResult result = BarWithHoles({1, 1, 5}, 8);
-  EXPECT_THAT(NotesOn(result), ElementsAre("2 loops are narrower than 2 voxels, as noise makes "
+  EXPECT_THAT(NotesOn(result), ElementsAre("2 loops are narrower than 2 voxels, as noise produces "
                                            "them; --cut-loops 16 closes such tunnels before "
                                            "thinning"));
   const SkeletonizeResult closed = BarWithHoles({1, 1, 5}, 8, {.tunnel_width = 16});

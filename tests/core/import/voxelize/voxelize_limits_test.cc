@@ -244,6 +244,8 @@ TEST(VoxelizeRefusal, OfSheetsThatAreThereFromBothSides) {
   const TriangleMesh sheet = {{{0, 0, 0}, {1, 0, 0.3}, {0, 1, 0.4}}, {{0, 1, 2}, {0, 2, 1}}};
   const absl::Status status = Refusal(sheet, {.points = 100});
   EXPECT_EQ(status.code(), absl::StatusCode::kFailedPrecondition);
+  EXPECT_THAT(status.message(),
+              HasSubstr("nothing enclosed: every triangle is there from both sides"));
   EXPECT_THAT(status.message(), HasSubstr("3 boundary edges"));
 }
 
