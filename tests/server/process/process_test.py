@@ -87,6 +87,7 @@ class FlagsTest(unittest.TestCase):
         with ServerProcess() as server:
             self.assertRegex(server.greeting, r"^listening on 127\.0\.0\.1:[1-9][0-9]*\n$")
             self.assertEqual(torus_loops(server.address), 1)
+            server.wait_for_event("call ended")  # the caller may know sooner
             self.assertEqual(server.stop(), 0)
             self.assertEqual(server.process.stdout.read(), "")
             events = [json.loads(line)["event"] for line in server.log_text().splitlines()]
