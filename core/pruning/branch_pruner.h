@@ -44,8 +44,8 @@ class BranchPruner {
         keep_(keep),
         context_(context) {}
 
-  // Returns the number of branches removed. `turned`, if given, receives what turns aside where
-  // they are removed. Stops early if the context requests it.
+  // Returns the number of branches removed. `turned`, if given, receives the tips that turn aside
+  // where branches are removed. Stops early if the context requests it.
   uint64_t Run(
       const OnRemoved& on_removed = [](LatticePoint, double) {}, TurnedTips* turned = nullptr);
 

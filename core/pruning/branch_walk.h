@@ -29,20 +29,27 @@ inline LatticePoint NextPoint(LatticePoint p, NeighborMask mask, LatticePoint pr
   return next;
 }
 
-// Needs: an end point.
-inline FreeBranch BranchFrom(const ThinSet& set, LatticePoint end) {
-  FreeBranch branch{{end}, std::nullopt};
-  LatticePoint previous = end;
-  LatticePoint p = NextPoint(end, set.NeighborsOf(end), end);
+// Appends the inner points of the curve that leads from `previous` to `p` and on. Returns the point
+// at which the curve stops: an end or a junction.
+inline LatticePoint FollowCurve(const ThinSet& set, LatticePoint previous, LatticePoint p,
+                                std::vector<LatticePoint>& points) {
   NeighborMask mask = set.NeighborsOf(p);
   while (IsPair(mask)) {
-    branch.points.push_back(p);
+    points.push_back(p);
     const LatticePoint next = NextPoint(p, mask, previous);
     previous = p;
     p = next;
     mask = set.NeighborsOf(p);
   }
-  if (std::has_single_bit(mask)) {
+  return p;
+}
+
+// Needs: an end point.
+inline FreeBranch BranchFrom(const ThinSet& set, LatticePoint end) {
+  FreeBranch branch{{end}, std::nullopt};
+  const LatticePoint first = NextPoint(end, set.NeighborsOf(end), end);
+  const LatticePoint p = FollowCurve(set, end, first, branch.points);
+  if (std::has_single_bit(set.NeighborsOf(p))) {
     branch.points.push_back(p);
   } else {
     branch.junction = p;

@@ -10,17 +10,17 @@
 
 namespace bccskel {
 
-// A tip cuts off the way into a cap or a corner at most: so many radii and lattice units.
+// Placing a tip removes at most a path into a cap or a corner: so many radii plus lattice units.
 inline constexpr double kCutRadii = 1.75;
 inline constexpr double kCutMargin = 6;
-// What falls by less per unit is a ridge for sure.
+// Where the radius falls by less per unit, the path certainly follows a ridge.
 inline constexpr double kRidgeSlope = 0.3;
-// From the anchor to what gives the limb its direction, in steps of the sampling.
+// Least distance from the anchor to the point that gives the limb its direction, in sampling steps.
 inline constexpr double kLeastAim = 4;
 
-// Where the direction of a limb is measured from: four radii and 5 steps back from its end, or the
-// junction, or the middle of a path without one. Where the limb bends, no farther back than it is
-// straight. Leaves the branch the points between its end and the anchor.
+// The point from which the direction of a limb is measured: four radii and 5 steps back from its
+// end, or the junction, or the middle of a path without one. Where the limb bends, it lies no
+// farther back than the limb is straight. Keeps the branch's points between its end and the anchor.
 // Shapes: `step` is the longest step along an axis, in lattice units.
 LatticePoint TakeAnchor(const ThinSet& set, double step, FreeBranch& branch);
 

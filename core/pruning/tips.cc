@@ -88,7 +88,7 @@ class TipPlacer {
     root_radius_ = set_.RadiusOf(root_);
   }
 
-  // Where limbs grow on, they grow straight on.
+  // Removes the tip that turns aside, so that the limb is extended straight on.
   void CutTurned(FreeBranch& branch) {
     const std::span<const LatticePoint> turned = turned_.At(branch.points);
     const auto is_kept = [&](LatticePoint p) { return keep_.contains(p); };

@@ -12,30 +12,22 @@ namespace {
 
 constexpr double kStraight = 0.77;  // cosine of 40 degrees
 constexpr double kLongest = 1.6;    // in radii of the fork
-constexpr double kLimbRadii = 2;    // the limb goes on for so many
-constexpr double kLimbWorth = 2;    // and is worth so much more
-constexpr double kTwin = 1.15;      // how much more than the branch that goes a twin may be worth
+constexpr double kLimbRadii = 2;    // least length of the limb, in radii of the fork
+constexpr double kLimbWorth = 2;    // least worth of a free limb, in worths of the arm aside
+constexpr double kTwin = 1.15;      // largest worth of a tip that turns aside, in thresholds
 
 // A curve that leads away from a fork.
 struct Arm {
   LatticePoint fork;
   std::vector<LatticePoint> points;  // from the fork on
-  bool is_free = false;              // ends with an end
-  double worth = 0;                  // of a free one
+  bool is_free = false;              // leads to an end
+  double worth = 0;                  // known if it is free
 };
 
 Arm ArmFrom(const ThinSet& set, LatticePoint fork, LatticePoint first) {
   Arm arm{fork, {}, false, 0};
-  LatticePoint previous = fork, p = first;
-  NeighborMask mask = set.NeighborsOf(p);
-  while (IsPair(mask)) {
-    arm.points.push_back(p);
-    const LatticePoint next = NextPoint(p, mask, previous);
-    previous = p;
-    p = next;
-    mask = set.NeighborsOf(p);
-  }
-  arm.is_free = std::has_single_bit(mask);
+  const LatticePoint p = FollowCurve(set, fork, first, arm.points);
+  arm.is_free = std::has_single_bit(set.NeighborsOf(p));
   if (arm.is_free) arm.points.push_back(p);
   return arm;
 }
@@ -50,7 +42,7 @@ std::vector<Arm> ArmsOf(const ThinSet& set, std::span<const LatticePoint> cluste
   return arms;
 }
 
-// The limb's way into the fork, over two radii; none where it is shorter.
+// The vector along the limb's last two radii into the fork; none if the limb is shorter.
 std::optional<Coordinates> WayOfLimb(const ThinSet& set, const Arm& limb, LatticePoint fork) {
   const double far = kLimbRadii * set.RadiusOf(fork);
   for (LatticePoint p : limb.points) {

@@ -11,29 +11,29 @@
 
 namespace bccskel {
 
-// The ends of limbs that turn aside: into a corner of a screw's head, or one ear of a bear.
-// Does:  Where the end of a limb forks, and one branch goes, the limb goes on into the other, which
-//        is as spurious. So this remembers the other while both are there, if the branch
-//        - leaves the way of the limb by 40 to 90 degrees: what goes straight on is the limb, what
-//          turns back is another one;
-//        - is at most 1.6 radii of the fork long, so it lies in the cap of the limb;
-//        - has a limb before it, a curve that goes on for two radii and, where that ends, too, is
-//          worth twice as much as the branch.
-// Why it is right: nothing is removed here; the points are those of a path from an end.
+// Ends of limbs that turn aside, such as into a corner of a screw's head or into one ear of a bear.
+// Does:  If the end of a limb forks into two spurious branches and pruning removes one, the other
+//        becomes the end of the limb. So this records the other before the removal, if
+//        - it leaves the direction of the limb by 40 to 90 degrees: a smaller angle continues the
+//          limb, a larger one belongs to another limb;
+//        - it is at most 1.6 radii of the fork long, so it lies in the cap of the limb;
+//        - the limb before it is a curve at least two radii long and, if that curve has a free end,
+//          too, is worth at least twice as much.
+// Why it is right: nothing is removed here, and recorded points form a path from an end.
 class TurnedTips {
  public:
   using WorthOf = std::function<double(const FreeBranch&)>;
 
-  // Call before `going` goes. Needs: `cluster` are the connected points of `set` with three and
-  // more neighbors at its junction; `worth_of` is below the threshold for spurious branches.
+  // Call before `going` is removed. Needs: `cluster` holds the connected points with at least three
+  // neighbors at its junction; `worth_of` is below the threshold for spurious branches.
   void Note(const ThinSet& set, const FreeBranch& going, std::span<const LatticePoint> cluster,
             const WorthOf& worth_of);
 
-  // Forgets what is worth this threshold, by more than a twin of a spurious branch may be.
+  // Forgets tips worth 1.15 thresholds or more: those are limbs.
   void DropFrom(double threshold);
 
-  // The longest way aside, the end first, that a branch begins with; empty if it has none, or
-  // nothing before it. Shapes: `branch` as FreeBranch::points.
+  // The longest recorded tip that is the beginning, but not all, of `branch` (FreeBranch::points);
+  // its end comes first. Empty if there is none.
   std::span<const LatticePoint> At(std::span<const LatticePoint> branch) const;
 
  private:
