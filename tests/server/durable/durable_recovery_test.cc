@@ -75,14 +75,14 @@ TEST_F(DurableRecoveryTest, GoesOnWithTheNumbersOfEvents) {
 
 TEST_F(DurableRecoveryTest, DoesNotRunAJobAFourthTimeThatWasThereAtThreeCrashes) {
   std::string job;
+  runner_->Hold();
   for (int attempt = 1; attempt <= 3; ++attempt) {
-    runner_->Hold();
     if (attempt == 1) job = CreateName("clinic", JobOf(Upload("clinic", "volume")));
     runner_->WaitForComputing(1);
     EXPECT_EQ(GetJob("clinic", job)->attempts, attempt) << "counted before it begins";
     Crash();
-    Open();
     if (attempt < 3) runner_->Hold();
+    Open();
   }
   const JobInfo ended = WaitForEnd("clinic", job);
   EXPECT_EQ(ended.state, JobState::kFailed);
