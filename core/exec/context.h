@@ -47,8 +47,9 @@ class Context {
   // Measured: from 1,000 bricks on, two threads were not slower on an idle machine.
   size_t min_bricks_per_worker = 512;
 
-  // A team that works in lockstep shrinks to worker 0 if that worker was blocked for more than this
-  // share of the time.
+  // A team of two that works in lockstep shrinks to worker 0 if that worker was blocked for more
+  // than this share of the time. Larger teams, which lose more by that, bear more: until two would
+  // be faster.
   double patience = 0.2;
 
   int threads() const { return team == nullptr ? 1 : team->size(); }

@@ -12,7 +12,10 @@ class MeetingTeam {
  public:
   // `size` as from Context::MeetingWorkersFor(). Needs: `context` outlives this.
   MeetingTeam(int size, const Context& context)
-      : size_(size), context_(context), barrier_(size), patience_(context.patience) {}
+      : size_(size),
+        context_(context),
+        barrier_(size),
+        patience_(1 - (1 - context.patience) * 2 / size) {}
 
   int size() const { return size_; }
   // Whether the team has more than one worker.
@@ -21,7 +24,7 @@ class MeetingTeam {
   // Runs `part(worker)` on each.
   template <typename Part>
   void Run(Part part) {
-    context_.Run(size_, [&](int worker) { barrier_.Guard([&] { part(worker); }); });
+    context_.Run(size_, [&](int worker) { barrier_.Guard(worker, [&] { part(worker); }); });
     if (size_ > 1) patience_.Tell(context_.team->in_lockstep());
   }
 

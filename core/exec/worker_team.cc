@@ -3,7 +3,10 @@
 #include <utility>
 
 #if defined(__linux__)
+#include <pthread.h>
 #include <sys/resource.h>
+
+#include <ctime>
 #endif
 #if defined(__x86_64__)
 #include <immintrin.h>
@@ -49,17 +52,45 @@ bool SpinUntil(size_t workers, Condition condition) {
 
 constexpr Confidence::Duration kLongestPause = std::chrono::milliseconds(3200);
 
+#if defined(__linux__)
+Clock::duration TimeOf(clockid_t clock) {
+  timespec time = {};
+  if (clock_gettime(clock, &time) != 0) return {};
+  return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
+}
+#endif
+
 // Share of the time of offered work; shorter waits are no loss, since the others did their part.
 constexpr double kMostWaiting = 0.2;
 
-// How often this thread was preempted.
-long TimesPreempted() {
+// Measures whether the calling thread is kept from running.
+class RunningTime {
+ public:
+  // Whether it was preempted since construction, and did not run for a good part of the time.
+  bool WasKeptFromRunning() const {
+    const Clock::duration passed = Clock::now() - start_, ran = ProcessorTime() - had_run_;
+    return TimesPreempted() != preempted_ && passed - ran > kMostWaiting * passed;
+  }
+
+ private:
+  static long TimesPreempted() {
 #if defined(__linux__)
-  rusage usage = {};
-  if (getrusage(RUSAGE_THREAD, &usage) == 0) return usage.ru_nivcsw;
+    rusage usage = {};
+    if (getrusage(RUSAGE_THREAD, &usage) == 0) return usage.ru_nivcsw;
 #endif
-  return 0;
-}
+    return 0;
+  }
+  static Clock::duration ProcessorTime() {
+#if defined(__linux__)
+    return TimeOf(CLOCK_THREAD_CPUTIME_ID);
+#endif
+    return {};
+  }
+
+  const Clock::time_point start_ = Clock::now();
+  const Clock::duration had_run_ = ProcessorTime();
+  const long preempted_ = TimesPreempted();
+};
 
 }  // namespace
 
@@ -168,11 +199,11 @@ void WorkerTeam::Serve(std::stop_token stop, int worker) {
       if (offered_) ++running_;
       shared_ = true;
     }
-    const long preempted_before = TimesPreempted();
+    const RunningTime time;
     Try(*work, worker);
-    const bool preempted = TimesPreempted() != preempted_before;
+    const bool kept_from_running = time.WasKeptFromRunning();
     std::lock_guard lock(mutex_);
-    preempted_ = preempted_ || preempted;
+    preempted_ = preempted_ || kept_from_running;
     if (--running_ == 0) done_.notify_one();
   }
 }
@@ -195,6 +226,24 @@ Barrier::Duration Barrier::Await(int worker) {
   return blocked;
 }
 
+// The clock's number, or kNoClock, which is the number of a clock of no thread.
+int Barrier::ClockOfThisThread() {
+#if defined(__linux__)
+  static_assert(CLOCK_REALTIME == kNoClock);
+  clockid_t clock = kNoClock;
+  if (pthread_getcpuclockid(pthread_self(), &clock) == 0) return clock;
+#endif
+  return kNoClock;
+}
+
+// Zero where the system does not tell.
+Barrier::Duration Barrier::ProcessorTime(int clock) {
+#if defined(__linux__)
+  if (clock != kNoClock) return TimeOf(clock);
+#endif
+  return {};
+}
+
 // Counts may be one ahead: a worker that has seen all arrive goes on to the next meeting.
 Barrier::Duration Barrier::WaitFor(const Meetings& other, uint32_t count) const {
   const auto has_come = [&] {
@@ -203,8 +252,11 @@ Barrier::Duration Barrier::WaitFor(const Meetings& other, uint32_t count) const 
   };
   if (SpinUntil(meetings_.size(), has_come)) return {};
   const Clock::time_point start = Clock::now();
+  const int clock = other.clock.load();
+  const Duration had_run = ProcessorTime(clock);
   while (!has_come()) other.count.wait(count - 1, std::memory_order_acquire);
-  return Clock::now() - start;
+  const Duration blocked = Clock::now() - start, ran = ProcessorTime(clock) - had_run;
+  return std::max(blocked - ran, Duration::zero());
 }
 
 // Counts that are far ahead release all waiting workers; later ones see that the barrier is broken.

@@ -81,7 +81,7 @@ class WorkerTeam {
   const std::function<void(int)>* work_ = nullptr;  // guarded by mutex_; null once withdrawn
   bool offered_ = false;                 // guarded by mutex_; joining workers increment running_
   bool shared_ = false;                  // guarded by mutex_; another worker joined
-  bool preempted_ = false;               // guarded by mutex_; and lost its processor
+  bool preempted_ = false;               // guarded by mutex_; and was kept from running
   std::atomic<uint64_t> generation_{0};  // changed under mutex_
   std::atomic<int> running_{0};          // changed under mutex_
   std::exception_ptr thrown_;            // guarded by mutex_; the first of a run
@@ -103,7 +103,9 @@ class Barrier {
   // Both throw what broke the barrier: a worker that will never arrive.
   void Arrive(int worker);
   // Until all have arrived as often as the caller. Any number of times.
-  // Returns: how long the caller was blocked; zero if the others arrived while it was spinning.
+  // Returns: how long the caller was blocked by workers that were kept from running; zero if the
+  // others arrived while it was spinning. A worker that has more to do is not kept from running, as
+  // far as the system tells how much processor time it took; if not, all of the time counts.
   Duration Await(int worker);
 
   Duration Wait(int worker) {
@@ -114,7 +116,8 @@ class Barrier {
   // Runs a worker's part. What it throws also ends the others at their next barrier, so that none
   // waits forever; the barrier cannot be used afterwards.
   template <typename Part>
-  void Guard(Part part) {
+  void Guard(int worker, Part part) {
+    meetings_[static_cast<size_t>(worker)].clock = ClockOfThisThread();
     try {
       part();
     } catch (...) {
@@ -124,10 +127,15 @@ class Barrier {
   }
 
  private:
+  static constexpr int kNoClock = 0;
   struct alignas(128) Meetings {
     std::atomic<uint32_t> count{0};
+    // Of the processor time of the worker's thread, once it runs.
+    std::atomic<int> clock{kNoClock};
   };
 
+  static int ClockOfThisThread();
+  static Duration ProcessorTime(int clock);
   Duration WaitFor(const Meetings& other, uint32_t count) const;
   void Break(std::exception_ptr cause);
   void CheckWhole() const {

@@ -115,9 +115,6 @@ HWY_INLINE void RemoveFromBrick(const RemovalView& view, const MarkedBrick& m) {
   view.changed[m.brick] = view.cycle;
 }
 
-// Whether other workers remove points at the same time.
-enum class Company : uint8_t { kAlone, kOthers };
-
 template <Company kCompany>
 HWY_INLINE void MarkDirtyAround(const RemovalView& view, BrickIndex brick, const WakeRow& wakes) {
   const BrickNeighborhood& neighbors = view.neighbors[brick];
@@ -125,27 +122,27 @@ HWY_INLINE void MarkDirtyAround(const RemovalView& view, BrickIndex brick, const
     BrickIndex n = neighbors[position];
     // The padding brick belongs to nobody, so several workers must not write to it.
     if (kCompany == Company::kOthers && n == view.none) n = brick;
-    view.dirty.Add(n, view.enabled[n] & wakes[position]);
+    view.dirty.Add<kCompany>(n, view.enabled[n] & wakes[position]);
   }
 }
 
 // The same for a brick that borders on other workers' bricks.
 HWY_NOINLINE void MarkDirtyAcrossBorder(const RemovalView& view, BrickIndex brick,
-                                        const WakeRow& wakes, std::vector<BrickIndex>& elsewhere) {
+                                        const WakeRow& wakes, BricksByOwner& elsewhere) {
   for (size_t position = 0; position < wakes.size(); ++position) {
     const BrickIndex n = view.neighbors[brick][position];
     if (wakes[position] == 0 || n == view.none) continue;
     if (n >= view.first && n < view.last) {
-      view.dirty.Add(n, view.enabled[n] & wakes[position]);
+      view.dirty.Add<Company::kOthers>(n, view.enabled[n] & wakes[position]);
     } else {
-      elsewhere.push_back(n);
+      elsewhere[view.owners[n / kDirtyGroup]].push_back(n);
     }
   }
 }
 
 template <Company kCompany>
 uint64_t RemoveAll(const RemovalView view, std::span<const MarkedBrick> marked,
-                   std::vector<BrickIndex>& elsewhere) {
+                   BricksByOwner& elsewhere) {
   BrickLane removed = hn::Zero(BrickTag());
   for (const MarkedBrick& m : marked) {
     removed = PlusBits(removed, LoadPlane(m.marks));
@@ -163,7 +160,7 @@ uint64_t RemoveAll(const RemovalView view, std::span<const MarkedBrick> marked,
 }
 
 uint64_t RemoveMarkedTarget(const RemovalView& view, std::span<const MarkedBrick> marked,
-                            std::vector<BrickIndex>& elsewhere) {
+                            BricksByOwner& elsewhere) {
   return view.first == 0 && view.last == view.none
              ? RemoveAll<Company::kAlone>(view, marked, elsewhere)
              : RemoveAll<Company::kOthers>(view, marked, elsewhere);
@@ -179,7 +176,7 @@ namespace bccskel {
 HWY_EXPORT(RemoveMarkedTarget);
 
 uint64_t RemoveMarked(const RemovalView& view, std::span<const MarkedBrick> marked,
-                      std::vector<BrickIndex>& elsewhere) {
+                      BricksByOwner& elsewhere) {
   return HWY_DYNAMIC_DISPATCH(RemoveMarkedTarget)(view, marked, elsewhere);
 }
 

@@ -12,6 +12,9 @@
 
 namespace bccskel {
 
+// Bricks, by the worker that owns them.
+using BricksByOwner = std::vector<std::vector<BrickIndex>>;
+
 // What a removal changes.
 struct RemovalView {
   BrickBits* object = nullptr;
@@ -23,13 +26,14 @@ struct RemovalView {
   int32_t cycle = 0;
   BrickIndex first = 0;  // own bricks
   BrickIndex last = 0;
-  BrickIndex none = 0;  // the padding brick
+  BrickIndex none = 0;               // the padding brick
+  const uint16_t* owners = nullptr;  // as BrickShares::owners()
 };
 
 // Removes the marked points, makes the sleeping bricks that border on them dirty, and appends those
 // outside [first, last) to `elsewhere`. Returns: the number of points removed.
 uint64_t RemoveMarked(const RemovalView& view, std::span<const MarkedBrick> marked,
-                      std::vector<BrickIndex>& elsewhere);
+                      BricksByOwner& elsewhere);
 
 }  // namespace bccskel
 

@@ -1,15 +1,21 @@
 #include "core/thinning/shell_opener.h"
 
 #include <algorithm>
-#include <numeric>
 #include <span>
 
 namespace bccskel {
 
-void ShellOpener::Begin(const Shells& shells, exec::Share bricks) {
+void ShellOpener::Begin(const Shells& shells, exec::Share bricks, int32_t from) {
   shells_ = &shells;
-  by_first_shell_.resize(bricks.end - bricks.begin);
-  std::iota(by_first_shell_.begin(), by_first_shell_.end(), static_cast<BrickIndex>(bricks.begin));
+  by_first_shell_.clear();
+  reached_ = 0;
+  opening_.clear();
+  cut_from_ = kNone;
+  for (size_t n = bricks.begin; n < bricks.end; ++n) {
+    const Shells::Range range = shells.RangeOf(static_cast<BrickIndex>(n));
+    if (range.last < from) continue;
+    (range.first < from ? opening_ : by_first_shell_).push_back(static_cast<BrickIndex>(n));
+  }
   SortByFirstShell();
 }
 

@@ -17,10 +17,11 @@ namespace bccskel {
 // (Condition 5).
 class ShellOpener {
  public:
+  // `from` is the first shell to open, the first one of all or a multiple of kShellsAtOnce.
   // Needs: `shells` outlive this.
-  void Begin(const Shells& shells, exec::Share bricks);
+  void Begin(const Shells& shells, exec::Share bricks, int32_t from = 1);
 
-  // Returns: the number of points of the shell. Needs: shells are opened in order, from 1 on.
+  // Returns: the number of points of the shell. Needs: shells are opened in order.
   uint64_t Open(const OpeningView& view, int32_t shell);
 
   // Takes over the bricks of another opener.

@@ -16,6 +16,10 @@ namespace {
 using Part = SweepPart;
 using Worker = SweepWorker;
 
+// A worker gets at least this many bricks divided by the rule's work, so that its part of a step
+// takes longer than a barrier.
+constexpr size_t kFewestBricks = 4 * kDirtyGroup;
+
 class ShellSweep {
  public:
   ShellSweep(const SweepPlan& plan, PassRule& rule, const exec::Context& context,
@@ -38,8 +42,13 @@ class ShellSweep {
         changed_(dirty_.size(), -1),
         team_(context.MeetingWorkersFor(state.brick_count(), rule.work()), context),
         workers_(static_cast<size_t>(team_.size())),
+        shares_(state.brick_count(), team_.size()),
         points_at_start_(
             CountPoints(std::span(state.object).subspan(own_.begin, own_.end - own_.begin))) {
+    for (Worker& worker : workers_) {
+      worker.seen_elsewhere.resize(workers_.size());
+      worker.beside_sleepers_elsewhere.resize(workers_.size());
+    }
     for (BrickIndex n = 0; n < state.brick_count(); ++n) {
       if (state.SublatticeOf(n) == Sublattice::kOdd) dirty_[n] = kOddBrick;
       if (!sleeps()) dirty_[n] |= kBesideSleeper;
@@ -61,10 +70,11 @@ class ShellSweep {
 
   void Work(int index) {
     Worker& worker = workers_[static_cast<size_t>(index)];
-    Prepare(index, worker);
+    TakeShare(index, worker, 1);
     int32_t cycle = done_;  // each of those shells took one cycle
     for (int32_t shell = 1; shell <= done_; ++shell) OpenShell(worker, shell);
     for (int32_t shell = done_ + 1; shell <= last_; ++shell) {
+      ShareAnew(index, worker, shell);
       OpenShell(worker, shell);
       uint64_t before = 0;
       do {
@@ -75,7 +85,7 @@ class ShellSweep {
         team_.ConsiderParting(index);
         team_.Meet(index);  // the new object is complete, and so are the sums
         if (partners_ != nullptr && !Agree(index, shell)) return;
-        if (sleeps()) FallAsleep(worker, cycle);
+        if (sleeps()) FallAsleep(state_, shares_, changed_, cycle, dirty_, worker);
         ++cycle;
         // The last shell may have thousands of cycles.
         if (team_.parting() && !JoinedInOne(index, worker)) return;
@@ -84,13 +94,29 @@ class ShellSweep {
     }
   }
 
-  void Prepare(int index, Worker& worker) {
-    const exec::Share share = exec::ShareOf(groups(), index, static_cast<int>(workers_.size()));
-    worker.bricks = {share.begin * kDirtyGroup,
-                     std::min(share.end * kDirtyGroup, state_.brick_count())};
-    BeginOpening(shells_, own_, worker);
-    if (workers_.size() > 1) MarkBorder(state_, worker, dirty_);
+  void TakeShare(int index, Worker& worker, int32_t shell) {
+    worker.bricks = shares_.Of(index);
+    BeginOpening(shells_, shell, own_, worker);
     Split(index, worker);
+    if (team_.meets(index)) FindBorder(state_, shares_, worker, dirty_);
+  }
+
+  // Before a shell is opened: moves the ranges of bricks if the next shells would be shared
+  // unevenly. With several passes per cycle each removes points on one side of the object only, so
+  // workers that have equal parts of a shell do not have equal parts of a pass.
+  void ShareAnew(int index, Worker& worker, int32_t shell) {
+    if (!team_.meets(index) || sleeps() || shell % kShellsAtOnce != 0) return;
+    shares_.Count(index, shells_, shell);
+    team_.Meet(index);
+    const size_t fewest = kFewestBricks / rule_.work();
+    if (!shares_.Uneven(fewest)) return;
+    HearOfChanges(index, worker);
+    shares_.Cut(index, shells_, shell, fewest);
+    team_.Meet(index);
+    if (index == 0) shares_.Adopt();
+    Clear(worker.seen_elsewhere);
+    team_.Meet(index);
+    TakeShare(index, worker, shell);
   }
 
   void Split(int index, Worker& worker) {
@@ -107,8 +133,11 @@ class ShellSweep {
     if (index != 0) return false;
     if (!team_.meets(0)) return true;
     team_.GoOnAlone();
+    for (Worker& worker : workers_) MarkDirty(std::exchange(worker.seen_elsewhere, {}));
     for (Worker& other : std::span(workers_).subspan(1)) TakeOver(other, first);
-    first.bricks.end = state_.brick_count();
+    shares_.JoinInOne();
+    first.bricks = shares_.Of(0);
+    first.adjacent.clear();
     Split(0, first);
     for (DirtyMask& brick : dirty_) {
       if ((brick & kBorderBrick) == 0) continue;
@@ -118,12 +147,18 @@ class ShellSweep {
   }
 
   void TakeOver(Worker& other, Worker& first) {
-    for (BrickIndex n : other.seen_elsewhere) DirtyView().Add(n, enabled_[n]);
     first.opener.TakeOver(other.opener);
     for (size_t n = 0; n < 2; ++n) first.ghost_openers[n].TakeOver(other.ghost_openers[n]);
     Worker nothing_to_do;
     nothing_to_do.removed = other.removed;
     other = std::move(nothing_to_do);
+  }
+
+  void MarkDirty(const BricksByOwner& seen) {
+    for (const std::vector<BrickIndex>& bricks : seen) MarkDirty(bricks);
+  }
+  void MarkDirty(std::span<const BrickIndex> bricks) {
+    for (const BrickIndex n : bricks) DirtyView().Add(n, enabled_[n]);
   }
 
   // Condition 5: the points of this shell become candidates.
@@ -145,43 +180,6 @@ class ShellSweep {
   // With a single pass per cycle nothing is gained from visiting bricks that did not change.
   bool sleeps() const { return rule_.passes_per_cycle() > 1; }
 
-  // Bricks around which nothing changed in this cycle were visited in all of its passes, so they
-  // are settled. The last pass listed all bricks that are awake.
-  void FallAsleep(Worker& worker, int32_t cycle) {
-    worker.beside_sleepers_elsewhere.clear();
-    for (const Part& part : worker.parts) {
-      for (Sublattice sublattice : kSublattices) {
-        for (const BrickIndex n : part.to_do.Of(sublattice)) {
-          if ((dirty_[n] & kAwake) != 0 && !ChangedAround(n, cycle)) PutToSleep(n, worker);
-        }
-      }
-    }
-  }
-
-  void PutToSleep(BrickIndex n, Worker& worker) {
-    dirty_[n] &= static_cast<DirtyMask>(~(kAwake | kDirectionsDirty));
-    for (const BrickIndex near : state_.neighbors[n]) {
-      if (Owns(worker, near)) {
-        dirty_[near] |= kBesideSleeper;
-      } else if (near < state_.brick_count()) {
-        worker.beside_sleepers_elsewhere.push_back(near);
-      }
-    }
-  }
-
-  void HearOfSleepers(const Worker& worker) {
-    for (const Worker& other : workers_) {
-      for (const BrickIndex n : other.beside_sleepers_elsewhere) {
-        if (Owns(worker, n)) dirty_[n] |= kBesideSleeper;
-      }
-    }
-  }
-
-  bool ChangedAround(BrickIndex n, int32_t cycle) const {
-    const auto changed = [&](BrickIndex brick) { return changed_[brick] == cycle; };
-    return changed(n) || std::ranges::any_of(state_.neighbors[n], changed);
-  }
-
   DirtyBricks DirtyView() { return {dirty_.data(), busy_groups_.data()}; }
 
   // One more than the full groups, so that there is room for the padding brick.
@@ -194,7 +192,7 @@ class ShellSweep {
       if (partners_ == nullptr) stopped_ = context_.ShouldStop();
       ++passes_;
     }
-    TakeOverDirty(worker);
+    HearOfChanges(index, worker);
     if (!worker.slabs.empty()) return PassInSlabs(worker, at);
     for (; at.step < rule_.steps(); ++at.step) {
       if (at.step > 0) team_.Await(index);  // others have finished the previous step
@@ -203,8 +201,8 @@ class ShellSweep {
     }
     team_.Await(index);  // no worker reads points near its border any more
     if (stopped_) return false;
-    if (at.pass == 0) HearOfSleepers(worker);
-    worker.seen_elsewhere.clear();
+    if (at.pass == 0) HearOfSleepers(workers_, index, dirty_);
+    Clear(worker.seen_elsewhere);
     if (partners_ != nullptr) TradeMarks(index, at.cycle, worker);
     BorderFirst(index, worker, [&](Part& part) { Remove(at.cycle, part, worker); });
     return true;
@@ -246,7 +244,7 @@ class ShellSweep {
     team_.Meet(index);
     worker.ghost_marks.clear();
     for (const MarkedBrick& m : lost_by_ghosts_) {
-      if (Owns(worker, m.brick)) worker.ghost_marks.push_back(m);
+      if (worker.Owns(m.brick)) worker.ghost_marks.push_back(m);
     }
     RemoveMarked(ViewFor(cycle, worker), worker.ghost_marks, worker.seen_elsewhere);
   }
@@ -295,11 +293,10 @@ class ShellSweep {
   }
 
   // Bricks of this worker next to which others removed points in the last pass.
-  void TakeOverDirty(const Worker& worker) {
-    for (const Worker& other : workers_) {
-      for (BrickIndex n : other.seen_elsewhere) {
-        if (Owns(worker, n)) DirtyView().Add(n, enabled_[n]);
-      }
+  void HearOfChanges(int index, const Worker& worker) {
+    for (const int other : worker.adjacent) {
+      const Worker& from = workers_[static_cast<size_t>(other)];
+      MarkDirty(from.seen_elsewhere[static_cast<size_t>(index)]);
     }
   }
 
@@ -319,11 +316,8 @@ class ShellSweep {
             .cycle = cycle,
             .first = static_cast<BrickIndex>(worker.bricks.begin),
             .last = static_cast<BrickIndex>(worker.bricks.end),
-            .none = static_cast<BrickIndex>(state_.brick_count())};
-  }
-
-  static bool Owns(const Worker& worker, BrickIndex n) {
-    return n >= worker.bricks.begin && n < worker.bricks.end;
+            .none = static_cast<BrickIndex>(state_.brick_count()),
+            .owners = shares_.owners()};
   }
 
   // Needs: called between the second meeting of a pass and the first of the next, when no worker
@@ -371,6 +365,7 @@ class ShellSweep {
   std::vector<int32_t> changed_;      // the cycle in which a brick last lost points
   exec::MeetingTeam team_;
   std::vector<Worker> workers_;
+  BrickShares shares_;
   uint64_t points_at_start_;
   uint32_t passes_ = 0;   // written by worker 0
   bool stopped_ = false;  // written by worker 0 before the first meeting of a pass

@@ -46,7 +46,8 @@ struct SweepTotals {
 //        around it has changed for a whole cycle; after that, and always with one pass per cycle,
 //        only after a change.
 // Differs from the paper: bricks of 512 points instead of point lists; the same points removed.
-// Threads: worker w owns a contiguous range of bricks; a pass has one more barrier than steps.
+// Threads: worker w owns a contiguous range of bricks (BrickShares); a pass has one more barrier
+//          than steps.
 // Partners: exchange the points that bricks lose once per pass, and sums once per cycle; the same
 //           points removed. Totals and progress are those of all; stop requests take effect after a
 //           cycle.

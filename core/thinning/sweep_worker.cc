@@ -23,12 +23,58 @@ void Take(const BrickBits& points, BrickBits& from) {
   for (size_t k = 0; k < from.words.size(); ++k) from.words[k] &= ~points.words[k];
 }
 
-void Reserve(size_t bricks, SweepPart& part) {
-  part.to_do.Reserve(bricks);
-  part.end_points_to_do.Reserve(bricks);
+// For other bricks than before: an empty part, which no pass visits, must not keep its old lists.
+void Begin(exec::Share bricks, SweepPart& part) {
+  part.bricks = bricks;
+  for (BrickLists* lists : {&part.to_do, &part.end_points_to_do}) {
+    lists->Reserve(bricks.end - bricks.begin);
+    lists->SetCounts(0, 0);
+  }
+  part.ends.clear();
+  part.marks.Clear();
+}
+
+void PutToSleep(const ThinningState& state, const BrickShares& shares, BrickIndex n,
+                std::span<DirtyMask> dirty, SweepWorker& worker) {
+  dirty[n] &= static_cast<DirtyMask>(~(kAwake | kDirectionsDirty));
+  for (const BrickIndex near : state.neighbors[n]) {
+    if (worker.Owns(near)) {
+      dirty[near] |= kBesideSleeper;
+    } else if (near < state.brick_count()) {
+      worker.beside_sleepers_elsewhere[static_cast<size_t>(shares.OwnerOf(near))].push_back(near);
+    }
+  }
 }
 
 }  // namespace
+
+void FallAsleep(const ThinningState& state, const BrickShares& shares,
+                std::span<const int32_t> changed, int32_t cycle, std::span<DirtyMask> dirty,
+                SweepWorker& worker) {
+  Clear(worker.beside_sleepers_elsewhere);
+  const auto has_changed = [&](BrickIndex brick) { return changed[brick] == cycle; };
+  for (const SweepPart& part : worker.parts) {
+    for (Sublattice sublattice : kSublattices) {
+      for (const BrickIndex n : part.to_do.Of(sublattice)) {
+        if ((dirty[n] & kAwake) == 0 || has_changed(n)) continue;
+        if (std::ranges::any_of(state.neighbors[n], has_changed)) continue;
+        PutToSleep(state, shares, n, dirty, worker);
+      }
+    }
+  }
+}
+
+void HearOfSleepers(std::span<const SweepWorker> workers, int index, std::span<DirtyMask> dirty) {
+  const auto own = static_cast<size_t>(index);
+  for (const int other : workers[own].adjacent) {
+    const SweepWorker& from = workers[static_cast<size_t>(other)];
+    for (const BrickIndex n : from.beside_sleepers_elsewhere[own]) dirty[n] |= kBesideSleeper;
+  }
+}
+
+void Clear(BricksByOwner& bricks) {
+  for (std::vector<BrickIndex>& list : bricks) list.clear();
+}
 
 void SplitParts(const ThinningState& state, SweepWorker& worker) {
   const auto [begin, end] = worker.bricks;
@@ -39,10 +85,9 @@ void SplitParts(const ThinningState& state, SweepWorker& worker) {
   }
   low = std::clamp(RoundUp(low), begin, end);
   high = std::clamp(high / kDirtyGroup * kDirtyGroup, low, end);
-  worker.parts[0].bricks = {begin, low};
-  worker.parts[1].bricks = {high, end};
-  worker.parts[2].bricks = {low, high};
-  for (SweepPart& part : worker.parts) Reserve(part.bricks.end - part.bricks.begin, part);
+  Begin({begin, low}, worker.parts[0]);
+  Begin({high, end}, worker.parts[1]);
+  Begin({low, high}, worker.parts[2]);
 }
 
 void SplitSlabs(const ThinningState& state, int steps, SweepWorker& worker) {
@@ -59,16 +104,25 @@ void SplitSlabs(const ThinningState& state, int steps, SweepWorker& worker) {
     begin = next;
   }
   worker.slab_parts.resize(static_cast<size_t>(steps) + 1);
-  for (SweepPart& part : worker.slab_parts) Reserve(most, part);
+  for (SweepPart& part : worker.slab_parts) Begin({0, most}, part);
 }
 
-void MarkBorder(const ThinningState& state, const SweepWorker& worker, std::span<DirtyMask> dirty) {
+void FindBorder(const ThinningState& state, const BrickShares& shares, SweepWorker& worker,
+                std::span<DirtyMask> dirty) {
   const exec::Share own = worker.bricks;
-  for (size_t n = own.begin; n < own.end; ++n) {
-    const bool border = std::ranges::any_of(state.neighbors[n], [&](BrickIndex other) {
-      return other < state.brick_count() && (other < own.begin || other >= own.end);
-    });
-    if (border) dirty[n] |= kBorderBrick;
+  worker.adjacent.clear();
+  for (const SweepPart& part : std::span(worker.parts).first(2)) {
+    for (size_t n = part.bricks.begin; n < part.bricks.end; ++n) {
+      dirty[n] &= static_cast<DirtyMask>(~kBorderBrick);
+      for (const BrickIndex other : state.neighbors[n]) {
+        if (other >= state.brick_count() || (other >= own.begin && other < own.end)) continue;
+        dirty[n] |= kBorderBrick;
+        const int owner = shares.OwnerOf(other);
+        if (std::ranges::find(worker.adjacent, owner) == worker.adjacent.end()) {
+          worker.adjacent.push_back(owner);
+        }
+      }
+    }
   }
 }
 
@@ -89,13 +143,13 @@ void MarkStubble(StubblePolicy policy, ThinningState& state, std::span<DirtyMask
   }
 }
 
-void BeginOpening(const Shells& shells, exec::Share own, SweepWorker& worker) {
+void BeginOpening(const Shells& shells, int32_t shell, exec::Share own, SweepWorker& worker) {
   const auto [begin, end] = worker.bricks;
   const size_t first = std::clamp(own.begin, begin, end);
   const size_t last = std::clamp(own.end, first, end);
-  worker.opener.Begin(shells, {first, last});
-  worker.ghost_openers[0].Begin(shells, {begin, first});
-  worker.ghost_openers[1].Begin(shells, {last, end});
+  worker.opener.Begin(shells, {first, last}, shell);
+  worker.ghost_openers[0].Begin(shells, {begin, first}, shell);
+  worker.ghost_openers[1].Begin(shells, {last, end}, shell);
 }
 
 void TellMarks(std::span<const SweepWorker> workers, SweepPartners& partners) {

@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "core/exec/worker_team.h"
+#include "core/thinning/brick_shares.h"
 #include "core/thinning/pass_rule.h"
+#include "core/thinning/removal.h"
 #include "core/thinning/shell_opener.h"
 #include "core/thinning/sweep_partners.h"
 #include "core/thinning/thinning.h"
@@ -40,15 +42,19 @@ struct alignas(128) SweepWorker {
   // For partners' bricks below and above its own, whose points are not counted here.
   std::array<ShellOpener, 2> ghost_openers;
 
-  // Bricks of other workers that border on points removed here. Written while points are removed
-  // and read by their owners before the next marks.
-  std::vector<BrickIndex> seen_elsewhere;
-  // Bricks of other workers beside a brick that fell asleep here. Written between cycles and read
-  // in the first pass.
-  std::vector<BrickIndex> beside_sleepers_elsewhere;
+  // The workers that own bricks next to its own.
+  std::vector<int> adjacent;
+  // Bricks of other workers, by owner, that border on points removed here. Written while points are
+  // removed and read by their owners before the next marks.
+  BricksByOwner seen_elsewhere;
+  // Those beside a brick that fell asleep here. Written between cycles and read in the first pass.
+  BricksByOwner beside_sleepers_elsewhere;
   std::vector<MarkedBrick> ghost_marks;  // what its ghosts lose in this pass
   uint64_t removed = 0;
+  uint64_t visits = 0;                            // of bricks, since ranges were last considered
   std::array<uint64_t, 2> shell_points = {0, 0};  // by parity of the shell
+
+  bool Owns(BrickIndex n) const { return n >= bricks.begin && n < bricks.end; }
 };
 
 // Splits a worker's bricks into parts. Whether a point is removed depends on points up to three
@@ -60,8 +66,23 @@ void SplitParts(const ThinningState& state, SweepWorker& worker);
 // of `steps` steps.
 void SplitSlabs(const ThinningState& state, int steps, SweepWorker& worker);
 
-// Marks the bricks that border on those of other workers.
-void MarkBorder(const ThinningState& state, const SweepWorker& worker, std::span<DirtyMask> dirty);
+// Marks the bricks that border on those of other workers and lists these workers. Bricks that no
+// longer border on any stay marked, which only costs time.
+// Needs: SplitParts() was called.
+void FindBorder(const ThinningState& state, const BrickShares& shares, SweepWorker& worker,
+                std::span<DirtyMask> dirty);
+
+// Puts bricks to sleep around which nothing changed in this cycle: they were visited in all of its
+// passes, so they are settled. `changed` is the last cycle in which a brick changed.
+// Needs: the last pass listed all bricks that are awake.
+void FallAsleep(const ThinningState& state, const BrickShares& shares,
+                std::span<const int32_t> changed, int32_t cycle, std::span<DirtyMask> dirty,
+                SweepWorker& worker);
+
+// Takes over what adjacent workers know of sleeping bricks beside those of worker `index`.
+void HearOfSleepers(std::span<const SweepWorker> workers, int index, std::span<DirtyMask> dirty);
+
+void Clear(BricksByOwner& bricks);
 
 // Applies Condition 6 to the end points that the rule found and those of bricks listed for them.
 // End points that stay for good are no longer candidates. Whether another one is a stubble point
@@ -69,8 +90,9 @@ void MarkBorder(const ThinningState& state, const SweepWorker& worker, std::span
 void MarkStubble(StubblePolicy policy, ThinningState& state, std::span<DirtyMask> dirty,
                  SweepPart& part);
 
-// Needs: `shells` outlive the worker; bricks outside `own` belong to partners.
-void BeginOpening(const Shells& shells, exec::Share own, SweepWorker& worker);
+// Before `shell` is opened. Needs: `shells` outlive the worker; bricks outside `own` belong to
+// partners.
+void BeginOpening(const Shells& shells, int32_t shell, exec::Share own, SweepWorker& worker);
 
 // Sends all marks of a pass to partners. Needs: marks of ghosts have been removed.
 void TellMarks(std::span<const SweepWorker> workers, SweepPartners& partners);

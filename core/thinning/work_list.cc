@@ -95,7 +95,7 @@ void TakeDirtyTarget(const DirtyBricks& dirty, size_t first, size_t last, DirtyM
     GroupBits bits = TakeGroup(dirty.bricks + at, to_visit);
     // Listed bricks may become dirty again in this pass, so their group rests only from the next
     // one on.
-    some = bits.rest ? 0 : 1;
+    if (bits.rest) some = 0;
     bits.end_points &= ~bits.found;
     if ((bits.found | bits.end_points) == 0) continue;
     even.Append(bits.found & ~bits.odd, at);

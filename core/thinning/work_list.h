@@ -31,6 +31,9 @@ inline constexpr DirtyMask kOddBrick = 1 << 15;
 // Ranges of bricks start at multiples of this, and arrays of DirtyMask are padded to one.
 inline constexpr size_t kDirtyGroup = 32;
 
+// Whether other workers write to bricks of their own at the same time.
+enum class Company : uint8_t { kAlone, kOthers };
+
 // Arrays for all bricks. Copies share them.
 struct DirtyBricks {
   DirtyMask* bricks = nullptr;
@@ -38,9 +41,12 @@ struct DirtyBricks {
   // read them.
   uint8_t* groups = nullptr;
 
+  template <Company kCompany = Company::kOthers>
   void Add(BrickIndex brick, DirtyMask bits) const {
     bricks[brick] = static_cast<DirtyMask>(bricks[brick] | bits);
-    groups[brick / kDirtyGroup] = 1;
+    uint8_t& group = groups[brick / kDirtyGroup];
+    // Groups of several workers share a cache line, which each write would take from the others.
+    if (kCompany == Company::kAlone || group == 0) group = 1;
   }
 };
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <ctime>
 #include <new>
 #include <set>
 #include <thread>
@@ -123,6 +124,40 @@ TEST(Barrier, ShowsAfterAwaitingWhatOthersWroteBeforeTheyArrived) {
   }
 }
 
+#if defined(__linux__)
+// How long worker 0 of two was blocked, as the barrier says, by a worker that does `theirs` first.
+template <typename Theirs>
+Barrier::Duration BlockedBy(Theirs theirs) {
+  WorkerTeam team(2);
+  Barrier barrier(2);
+  Barrier::Duration blocked = {};
+  team.Run([&](int worker) {
+    barrier.Guard(worker, [&] {
+      barrier.Wait(worker);
+      if (worker == 1) theirs();
+      barrier.Arrive(worker);
+      if (worker == 0) blocked = barrier.Await(worker);
+    });
+  });
+  return blocked;
+}
+
+// Tried again, since on a busy machine workers may be kept from running at any time.
+TEST(Barrier, IsNotBlockedByAWorkerThatHasMoreToDo) {
+  using std::chrono::milliseconds;
+  const auto blocked = [](int) {
+    return BlockedBy([] {
+      const std::clock_t end = std::clock() + CLOCKS_PER_SEC / 20;
+      while (std::clock() < end) {
+      }
+    });
+  };
+  const auto hardly = [&](int turn) { return blocked(turn) < milliseconds(25); };
+  EXPECT_TRUE(std::ranges::any_of(std::vector{1, 2, 3, 4, 5}, hardly));
+  EXPECT_GE(BlockedBy([] { std::this_thread::sleep_for(milliseconds(50)); }), milliseconds(40));
+}
+#endif
+
 TEST(WorkerTeam, ThrowsWhatOneOfItsWorkersThrowsAndGoesOn) {
   for (int size : TeamSizes()) {
     WorkerTeam team(size);
@@ -152,7 +187,7 @@ TEST(Barrier, GuardedPartsEndTogetherWhenOneThrows) {
         }
         ++ended;
       };
-      const auto work = [&](int worker) { barrier.Guard([&] { part(worker); }); };
+      const auto work = [&](int worker) { barrier.Guard(worker, [&] { part(worker); }); };
       EXPECT_THROW(team.Run(work), std::bad_alloc) << "worker " << thrower << " of " << size;
       EXPECT_EQ(ended, 0);
     }
@@ -173,7 +208,7 @@ TEST(Barrier, PartsThatArriveEarlyEndTogetherWhenOneThrows) {
       barrier.Await(worker);
       ++ended;
     };
-    const auto work = [&](int worker) { barrier.Guard([&] { part(worker); }); };
+    const auto work = [&](int worker) { barrier.Guard(worker, [&] { part(worker); }); };
     EXPECT_THROW(team.Run(work), std::bad_alloc) << size << " workers";
     EXPECT_EQ(ended, 0);
   }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "core/exec/instruction_sets.h"
@@ -10,6 +11,7 @@
 #include "tests/support/contexts.h"
 #include "tests/support/random_objects.h"
 #include "tests/support/reference_point_set.h"
+#include "tests/support/volume_where.h"
 
 namespace bccskel::all_rules {
 namespace {
@@ -47,9 +49,33 @@ TEST(Thinning, GivesTheSameBitsForAnyNumberOfThreadsOfATallObject) {
     const auto alone = ThinObject(object, *distance, {.method = method}, {});
     for (int threads : {2, 3, 4, 7, 16}) {
       test::TeamContext context(threads);
+      context.patience = 1e9;
       const auto shared = ThinObject(object, *distance, {.method = method}, context);
       EXPECT_TRUE(shared->thin == alone->thin) << threads << " threads";
       EXPECT_EQ(shared->removed, alone->removed) << threads << " threads";
+      EXPECT_EQ(shared->passes, alone->passes) << threads << " threads";
+    }
+  }
+}
+
+// A thick end and a thin stalk, whose bricks have no deep shells, so that ranges of bricks move.
+Volume Lollipop() {
+  return test::VolumeWhere({120, 120, 700}, [](int32_t x, int32_t y, int32_t z) {
+    const int32_t up = z - 120;
+    return (x - 120) * (x - 120) + (y - 120) * (y - 120) <= std::max(576, 118 * 118 - up * up);
+  });
+}
+
+TEST(Thinning, GivesTheSameBitsWhenWorkersShareBricksAnew) {
+  const Volume object = Lollipop();
+  const auto distance = ComputeDistance(object, DistanceKind::kEuclidean, {});
+  for (const ThinningMethod method : {ThinningMethod::kDirectional, ThinningMethod::kSymmetric}) {
+    const auto alone = ThinObject(object, *distance, {.method = method}, {});
+    for (int threads : {2, 3, 5, 9}) {
+      test::TeamContext context(threads);
+      context.patience = 1e9;
+      const auto shared = ThinObject(object, *distance, {.method = method}, context);
+      EXPECT_TRUE(shared->thin == alone->thin) << threads << " threads";
       EXPECT_EQ(shared->passes, alone->passes) << threads << " threads";
     }
   }
