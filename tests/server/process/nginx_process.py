@@ -1,4 +1,4 @@
-"""nginx as docker/nginx configures it, in front of a server that listens on a Unix socket."""
+"""nginx as docker/nginx configures it, in front of servers that listen on Unix sockets."""
 
 import contextlib
 import os
@@ -28,9 +28,9 @@ def rewrite(path, changes):
     path.write_text(text)
 
 
-def configure(folder, server_socket, port, pair=None):
+def configure(folder, server_sockets, port, pair=None):
     """The committed files, with this site's listener and upstream: with a pair of certificate and key
-    the example of a listener with TLS."""
+    the example of a listener with TLS, with several servers the upstream of a fleet of three."""
     site = folder / "nginx"
     shutil.copytree(CONFIGURATION, site)
     plain, example = site / "listeners/plain.conf", site / "listeners/tls.conf.example"
@@ -41,7 +41,13 @@ def configure(folder, server_socket, port, pair=None):
         rewrite(plain, {"listen 8443": f"listen 127.0.0.1:{port}",
                         "/etc/nginx/tls/tls.crt": str(pair.certificate),
                         "/etc/nginx/tls/tls.key": str(pair.key)})
-    rewrite(site / "upstreams/socket.conf", {"/run/bccskel/server.sock": server_socket})
+    if len(server_sockets) == 1:
+        rewrite(site / "upstreams/socket.conf", {"/run/bccskel/server.sock": server_sockets[0]})
+    else:
+        (site / "fleet/servers.conf").replace(site / "upstreams/socket.conf")
+        rewrite(site / "upstreams/socket.conf",
+                {f"/run/bccskel-{number}/server.sock": path
+                 for number, path in enumerate(server_sockets, 1)})
     # Two of them at a time must not share the files that nginx writes.
     rewrite(site / "nginx.conf", {"/tmp/nginx": f"{folder}/written"})
     return site
@@ -57,10 +63,11 @@ def wait_for(port, process):
 
 
 @contextlib.contextmanager
-def nginx_in_front(folder, server_socket, pair=None):
-    """The address to call while nginx runs. `folder` is a pathlib.Path of our own."""
+def nginx_in_front(folder, *server_sockets, pair=None):
+    """The address to call while nginx runs. `folder` is a pathlib.Path of our own; one server or a
+    fleet of three."""
     port = free_port()
-    site = configure(folder, server_socket, port, pair)
+    site = configure(folder, server_sockets, port, pair)
     user = " user root;" if os.geteuid() == 0 else ""  # who may open the socket
     process = subprocess.Popen([NGINX, "-p", site, "-c", site / "nginx.conf", "-g",
                                 f"daemon off;{user}"], stderr=subprocess.DEVNULL)

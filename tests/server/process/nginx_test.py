@@ -29,7 +29,7 @@ class NginxTest(unittest.TestCase):
         self.socket = f"{self.path}/server.sock"
 
     def front(self, pair=None):
-        front = nginx_in_front(self.path, self.socket, pair)
+        front = nginx_in_front(self.path, self.socket, pair=pair)
         address = front.__enter__()
         self.addCleanup(front.__exit__, None, None, None)
         return address
