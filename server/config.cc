@@ -123,7 +123,7 @@ const std::vector<Action>& Actions() {
 }
 
 // Determines every setting and records its origin and errors.
-struct Settling {
+struct SettingsResolver {
   std::vector<std::string> problems;
   std::map<std::string, std::string> origins;  // by setting
 
@@ -137,25 +137,25 @@ struct Settling {
 };
 
 // The first source that gives a setting wins.
-void Settle(const std::vector<Setting>& settings, const GivenValues& flags,
-            const GivenValues& variables, const GivenValues& file, Settling& settling) {
+void Resolve(const std::vector<Setting>& settings, const GivenValues& flags,
+             const GivenValues& variables, const GivenValues& file, SettingsResolver& resolver) {
   for (const Setting& setting : settings) {
     const std::string& name = setting.name;
     if (const auto flag = flags.find(name); flag != flags.end()) {
-      settling.Take(setting, flag->second, "--" + name, "command line");
+      resolver.Take(setting, flag->second, "--" + name, "command line");
     } else if (const auto found = variables.find(name); found != variables.end()) {
-      settling.Take(setting, found->second, VariableOf(name), "environment");
+      resolver.Take(setting, found->second, VariableOf(name), "environment");
     } else if (const auto line = file.find(name); line != file.end()) {
-      settling.Take(setting, line->second, name, "file");
+      resolver.Take(setting, line->second, name, "file");
     }
   }
 }
 
 void RefuseUnknown(const std::vector<Setting>& settings, const GivenValues& file,
-                   Settling& settling) {
+                   SettingsResolver& resolver) {
   for (const auto& [name, values] : file) {
     if (std::ranges::find(settings, name, &Setting::name) == settings.end()) {
-      settling.problems.push_back(name + ": there is no such setting");
+      resolver.problems.push_back(name + ": there is no such setting");
     }
   }
 }
@@ -195,14 +195,15 @@ absl::Status CheckMetricsAddress(const ServerConfig& config) {
       absl::StrCat("--metrics-listen: ", config.metrics_listen, ": must be HOST:PORT"));
 }
 
-void CheckTogether(const ServerConfig& config, Settling& settling) {
+void CheckTogether(const ServerConfig& config, SettingsResolver& resolver) {
   for (const absl::Status& status : {CheckTlsFiles(config.tls), CheckTokens(config),
                                      CheckMetricsAddress(config), CheckJobStore(config)}) {
-    if (!status.ok()) settling.problems.emplace_back(status.message());
+    if (!status.ok()) resolver.problems.emplace_back(status.message());
   }
 }
 
-GivenValues FromFile(const CommandLine& line, const Variable& variable, Settling& settling) {
+GivenValues FromFile(const CommandLine& line, const Variable& variable,
+                     SettingsResolver& resolver) {
   const auto flag = line.actions.find("config");
   const char* const named = variable("BCCSKEL_CONFIG");
   std::string path = named == nullptr ? "" : named;
@@ -210,7 +211,7 @@ GivenValues FromFile(const CommandLine& line, const Variable& variable, Settling
   if (path.empty()) return {};
   absl::StatusOr<GivenValues> file = ReadConfigFile(path);
   if (file.ok()) return *std::move(file);
-  settling.problems.emplace_back(file.status().message());
+  resolver.problems.emplace_back(file.status().message());
   return {};
 }
 
@@ -220,12 +221,12 @@ std::string ProblemText(const std::vector<std::string>& problems) {
   return text;
 }
 
-std::string SettingsText(const std::vector<Setting>& settings, const Settling& settling) {
+std::string SettingsText(const std::vector<Setting>& settings, const SettingsResolver& resolver) {
   std::string text;
   for (const Setting& setting : settings) {
-    const auto origin = settling.origins.find(setting.name);
+    const auto origin = resolver.origins.find(setting.name);
     absl::StrAppend(&text, setting.name, " = ", setting.show(), "  # ",
-                    origin == settling.origins.end() ? "default" : origin->second, "\n");
+                    origin == resolver.origins.end() ? "default" : origin->second, "\n");
   }
   return text;
 }
@@ -269,16 +270,16 @@ std::variant<ServerConfig, ExitRequest> ParseServerConfig(int argc, const char* 
   if (const auto tenant = line.actions.find("new-token"); tenant != line.actions.end()) {
     return MakeToken(tenant->second);
   }
-  Settling settling;
-  const GivenValues file = FromFile(line, variable, settling);
-  Settle(settings, line.values, ReadEnvironment(settings, variable), file, settling);
-  RefuseUnknown(settings, file, settling);
-  CheckTogether(config, settling);
-  const int code = settling.problems.empty() ? 0 : kUsageError;
+  SettingsResolver resolver;
+  const GivenValues file = FromFile(line, variable, resolver);
+  Resolve(settings, line.values, ReadEnvironment(settings, variable), file, resolver);
+  RefuseUnknown(settings, file, resolver);
+  CheckTogether(config, resolver);
+  const int code = resolver.problems.empty() ? 0 : kUsageError;
   if (line.actions.contains("check-config")) {
-    return ExitRequest{code, SettingsText(settings, settling), ProblemText(settling.problems)};
+    return ExitRequest{code, SettingsText(settings, resolver), ProblemText(resolver.problems)};
   }
-  if (code != 0) return ExitRequest{code, "", ProblemText(settling.problems)};
+  if (code != 0) return ExitRequest{code, "", ProblemText(resolver.problems)};
   return config;
 }
 

@@ -17,7 +17,7 @@ constexpr int kTag = 19;
 constexpr size_t kPieceBytes = size_t{1} << 30;
 
 // Between two polls for messages.
-class Lookout {
+class PollBackoff {
  public:
   void Yield() {
     constexpr auto kSpinTime = std::chrono::microseconds(100);
@@ -103,7 +103,7 @@ void MpiExchange::Trade(std::span<const int> peers, std::span<const Bytes> out,
   std::vector<size_t> awaited(peers.size());
   for (size_t n = 0; n < awaited.size(); ++n) awaited[n] = n;
   int all_sent = 0;
-  for (Lookout lookout; !awaited.empty() || all_sent == 0; lookout.Yield()) {
+  for (PollBackoff backoff; !awaited.empty() || all_sent == 0; backoff.Yield()) {
     std::erase_if(awaited, [&](size_t n) { return TakePiece(peers[n], communicator_, in[n]); });
     MPI_Testall(static_cast<int>(sent.size()), sent.data(), &all_sent, MPI_STATUSES_IGNORE);
     if (awaited.empty() && all_sent != 0) return;
@@ -117,10 +117,10 @@ void MpiExchange::Reduce(std::span<uint64_t> numbers, MPI_Op operation) {
   MPI_Iallreduce(MPI_IN_PLACE, numbers.data(), static_cast<int>(numbers.size()), MPI_UINT64_T,
                  operation, communicator_, &request);
   int done = 0;
-  Lookout lookout;
+  PollBackoff backoff;
   for (MPI_Test(&request, &done, MPI_STATUS_IGNORE); done == 0;
        MPI_Test(&request, &done, MPI_STATUS_IGNORE)) {
-    lookout.Yield();
+    backoff.Yield();
   }
 }
 

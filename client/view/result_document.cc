@@ -50,7 +50,7 @@ Member<T> Optional(std::string_view name, T& to) {
 }
 
 // A value that is checked but not stored.
-struct Unkept {
+struct Unused {
   bool there = false;
 };
 template <typename T>
@@ -77,7 +77,7 @@ class Reader {
   explicit Reader(ResultDocument& to) : to_(to) {}
 
   absl::Status Run() && {
-    Unkept timed, labels;
+    Unused timed, labels;
     NotOnPages timings{timed};
     NotOnPages sheets{to_.sheets};
     Order order{to_.roots, to_.root_rule};
@@ -150,7 +150,7 @@ class Reader {
     if (now_->kind != Kind::kString) return Complain(place, "a string");
     to = Text();
   }
-  void Read(const Place& /*place*/, Unkept& to) {
+  void Read(const Place& /*place*/, Unused& to) {
     to.there = true;
     Skip();
   }
@@ -194,7 +194,7 @@ class Reader {
                Optional("loops", to.loops), Optional("cavities", to.cavities));
   }
   void Read(const Place& place, ResultDocument::Edge& to) {
-    Unkept curve;
+    Unused curve;
     std::string_view stored;
     WithText points{to.points, stored};
     ReadObject(place, Required("source", to.source), Required("target", to.target),

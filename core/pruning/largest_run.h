@@ -5,7 +5,7 @@
 
 #include "core/pruning/surface_noise.h"
 #include "core/pruning/thin_set.h"
-#include "core/pruning/way_on.h"
+#include "core/pruning/tip_extender.h"
 
 namespace bccskel {
 

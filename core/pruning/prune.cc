@@ -144,15 +144,15 @@ absl::StatusOr<ThinSkeleton> Prune(const ThinSkeleton& curves, const PrunedObjec
   const Volume& space = in.space != nullptr ? *in.space : in.object;
   const SurfaceNoise noise = SurfaceNoiseOf(in.object, in.surface_step, in.slabs);
   const ExactRadius in_space = in.space == nullptr ? in.radius : ExactRadius(space);
-  std::optional<WayOn> way_on;
+  std::optional<TipExtender> extender;
   std::optional<FirmDepth> firm_depth;
   // A voxel's edge is longer than what thinning leaves out, and its pit is deeper than a point's.
   if (in.surface_step == 1) {
-    way_on.emplace(space, in_space);
+    extender.emplace(space, in_space);
   } else if (noise.roughness > 0) {
     firm_depth.emplace(space, in_space);
   }
-  Significance significance(in.object, noise, std::move(way_on), std::move(firm_depth),
+  Significance significance(in.object, noise, std::move(extender), std::move(firm_depth),
                             space.window());
   TurnedTips turned;
   if (options.rule != PruningRule::kNone) {

@@ -76,12 +76,12 @@ double MedianFrom(std::array<double, Significance::kPlaces> values, size_t place
 }  // namespace
 
 Significance::Significance(const Volume& object, const SurfaceNoise& noise,
-                           std::optional<WayOn> way_on, std::optional<FirmDepth> firm_depth,
+                           std::optional<TipExtender> extender, std::optional<FirmDepth> firm_depth,
                            const std::optional<LatticeBox>& border)
     : noise_(noise),
       scale_(AxisScaleOf(object.placement())),
       bricks_(object),
-      way_on_(std::move(way_on)),
+      extender_(std::move(extender)),
       firm_depth_(std::move(firm_depth)),
       border_(border) {}
 
@@ -98,7 +98,7 @@ double Significance::Of(const ThinSet& set, const FreeBranch& branch) {
 double Significance::OfPath(const ThinSet& set, std::array<BranchPath, 2> ways) const {
   double elongation = 0;
   for (BranchPath& way : ways) {
-    GoOnBeyond(border_, scale_, way);
+    ExtendAcrossBorder(border_, scale_, way);
     elongation += LargestElongation(set, way);
   }
   return (elongation - noise_.step) / ways[0].radii[0];
@@ -204,10 +204,10 @@ double Significance::ValueOf(const ThinSet& set, const BranchPath& path, const R
 // What lies beyond the end is looked for where it may decide: it adds its length and the rise of
 // its radius at most. Likewise pits: they only make the radius smaller.
 Run Significance::RunOf(const ThinSet& set, BranchPath& path) {
-  constexpr double kMost = WayOn::kLongest + kSteepness * WayOn::kLargestRise;
+  constexpr double kMost = TipExtender::kLongest + kSteepness * TipExtender::kLargestRise;
   const double way = set.Between(path.points[0], path.points.back());
   // What is shorter leads to a face of a thin stack.
-  if (way >= path.radii.back() && GoOnBeyond(border_, scale_, path)) {
+  if (way >= path.radii.back() && ExtendAcrossBorder(border_, scale_, path)) {
     return LargestRun(set, path, noise_);
   }
   const Run run = LargestRun(set, path, noise_);
@@ -216,12 +216,12 @@ Run Significance::RunOf(const ThinSet& set, BranchPath& path) {
     LookPastPits(path);
     return LargestRun(set, path, noise_);
   }
-  if (!way_on_.has_value()) return run;
+  if (!extender_.has_value()) return run;
   SurfaceNoise less = noise_;
   less.thin -= kMost;
   less.thick -= kMost;
   if (LargestRun(set, path, less).ratio < kLeastRatio) return run;
-  way_on_->Append(path);
+  extender_->Append(path);
   return LargestRun(set, path, noise_);
 }
 
@@ -283,7 +283,7 @@ Significance::Sections Significance::SectionsAcross(const BranchPath& path, cons
   for (size_t place = 0; place < kPlaces; ++place) {
     const size_t n = PlaceIn(run, place);
     Section& section = sections[place];
-    section = {PlaceOf(path.points[n], scale_), WayAt(path.points, n, scale_), path.radii[n]};
+    section = {PlaceOf(path.points[n], scale_), DirectionAt(path.points, n, scale_), path.radii[n]};
     const auto [u, v] = Across(section.way);
     section.side = u;
     for (const auto& [cosine, sine] : kTurns) {

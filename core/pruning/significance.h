@@ -16,22 +16,22 @@
 #include "core/pruning/point_table.h"
 #include "core/pruning/surface_noise.h"
 #include "core/pruning/thin_set.h"
-#include "core/pruning/way_on.h"
+#include "core/pruning/tip_extender.h"
 #include "core/volume/volume.h"
 
 namespace bccskel {
 
 // Tells limbs from bumps, ribs and strands by how far they stick out, in half-widths of the object.
 // README.md of this folder gives the steps, the constants and the reasons.
-// Does:  extends the branch beyond its end where that may matter (WayOn, GoOnBeyond()) and finds
-//        its run, the part from q to p with the largest (elongation - noise) / D(q). The elongation
-//        is |p - q| - 2 (D(q) - D(p)), D the radius, on rough surfaces of voxels without pits
-//        (FirmDepth). The significance is sqrt(elongation^2 - (noise + 2)^2) / (D(q) + 2.2 (H -
-//        D(q))) times the share of the run outside 0.9 of the balls of other branches. H is the
-//        half-width of the object across the branch. In walls, lines across the branch follow the
-//        wall, and the fall of the inscribed circle's radius may replace that of D. The best run of
-//        the later half of a run is evaluated in the same way, and so on; the largest result
-//        counts.
+// Does:  extends the branch beyond its end where that may matter (TipExtender,
+//        ExtendAcrossBorder()) and finds its run, the part from q to p with the largest
+//        (elongation - noise) / D(q). The elongation is |p - q| - 2 (D(q) - D(p)), D the radius, on
+//        rough surfaces of voxels without pits (FirmDepth). The significance is sqrt(elongation^2 -
+//        (noise + 2)^2) / (D(q) + 2.2 (H - D(q))) times the share of the run outside 0.9 of the
+//        balls of other branches. H is the half-width of the object across the branch. In walls,
+//        lines across the branch follow the wall, and the fall of the inscribed circle's radius may
+//        replace that of D. The best run of the later half of a run is evaluated in the same way,
+//        and so on; the largest result counts.
 // The significance is a ratio of lengths of the shape. Only the noise depends on the sampling, so
 // it is the same at any resolution and in any pose.
 // Cost:  48 points of the branch for each of one to five runs. For a run that may be the best, 176
@@ -43,13 +43,13 @@ class Significance {
   static constexpr size_t kPlaces = 11;  // positions of a run, evenly spaced
   static constexpr size_t kWork = 256;   // work of a branch, for Context::WorkersFor()
 
-  // Needs: `object` outlives this; `noise` is that of its surface. `way_on`, of the same object,
+  // Needs: `object` outlives this; `noise` is that of its surface. `extender`, of the same object,
   //        extends branches beyond the end that thinning gave them; none: they end there.
   //        `firm_depth`, of the same object, measures radii without pits as far as the surface is
   //        rough; none: radii as they are. `border` of the image, where limbs that it cuts off are
   //        extended.
   Significance(const Volume& object, const SurfaceNoise& noise,
-               std::optional<WayOn> way_on = std::nullopt,
+               std::optional<TipExtender> extender = std::nullopt,
                std::optional<FirmDepth> firm_depth = std::nullopt,
                const std::optional<LatticeBox>& border = std::nullopt);
 
@@ -118,7 +118,7 @@ class Significance {
   const SurfaceNoise noise_;
   const AxisScale scale_;
   NearbyBricks bricks_;
-  std::optional<WayOn> way_on_;
+  std::optional<TipExtender> extender_;
   std::optional<FirmDepth> firm_depth_;
   const std::optional<LatticeBox> border_;
   std::optional<BallIndex> balls_;  // created on first use

@@ -45,7 +45,7 @@ ComputeQueue::Entry ComputeQueue::Post(const Claim& claim, Work work) {
     std::lock_guard lock(mutex_);
     entry = queue_.Push(claim.origin, now_(),
                         {claim.origin.tenant, claim.most_threads, claim.bricks, std::move(work)});
-    CountCrowd();
+    UpdateRecentLoad();
     if (claim.most_threads == 1) least_waiting_ = std::min<uint64_t>(least_waiting_, claim.bricks);
   }
   wake_.notify_one();
@@ -90,18 +90,18 @@ void ComputeQueue::Serve(std::stop_token stop) {
   }
 }
 
-void ComputeQueue::CountCrowd() {
+void ComputeQueue::UpdateRecentLoad() {
   const int together = running_ + static_cast<int>(queue_.size());
   const Clock::time_point now = now_();
-  if (together < crowd_ && now < crowd_until_) return;
-  crowd_ = together;
-  crowd_until_ = now + kLately;
+  if (together < recent_load_ && now < recent_load_until_) return;
+  recent_load_ = together;
+  recent_load_until_ = now + kLately;
 }
 
 // The number of threads for a job that was just taken from the queue. Needs: mutex_ held.
 int ComputeQueue::ThreadsFor(const Waiting& job) const {
-  const int crowd = now_() < crowd_until_ ? crowd_ : 0;
-  const int sharing = std::max(1 + static_cast<int>(queue_.size()), crowd - running_);
+  const int lately = now_() < recent_load_until_ ? recent_load_ : 0;
+  const int sharing = std::max(1 + static_cast<int>(queue_.size()), lately - running_);
   return std::max(1, std::min(job.most_threads, (threads_ - given_threads_) / sharing));
 }
 

@@ -92,7 +92,7 @@ class ComputeQueue {
   std::optional<Taken> TakeSmaller(const Turn& turn);
   // Needs of these: mutex_ held.
   void FindLeastWaiting();
-  void CountCrowd();
+  void UpdateRecentLoad();
   int ThreadsFor(const Waiting& job) const;
 
   const int threads_;
@@ -105,8 +105,8 @@ class ComputeQueue {
   int running_ = 0;  // guarded by mutex_, as are the members below
   // Threads of running jobs; may exceed threads_. Changed with mutex_ held.
   std::atomic<int> given_threads_ = 0;
-  int crowd_ = 0;  // most jobs that recently waited or ran at the same time
-  Clock::time_point crowd_until_;
+  int recent_load_ = 0;  // most jobs that recently waited or ran at the same time
+  Clock::time_point recent_load_until_;
   // The team of the last job with several threads. The next job of that size need not start
   // threads, and knows whether lockstep has paid off on this machine lately.
   std::unique_ptr<exec::WorkerTeam> idle_team_;

@@ -299,18 +299,18 @@ BranchPath GoneOn(int32_t rod_end, int32_t branch_end) {
     path.radii.push_back(radius.At({x, 20, 20}));
   }
   const size_t before = path.points.size();
-  WayOn(rod, radius).Append(path);
+  TipExtender(rod, radius).Append(path);
   path.points.erase(path.points.begin(), path.points.begin() + static_cast<ptrdiff_t>(before));
   return path;
 }
 
-TEST(WayOn, FollowsTheLimbByAFewUnits) {
+TEST(TipExtender, FollowsTheLimbByAFewUnits) {
   const BranchPath path = GoneOn(80, 60);
   ASSERT_FALSE(path.points.empty());
   EXPECT_EQ(path.points.back(), (LatticePoint{62, 20, 20}));
 }
 
-TEST(WayOn, EndsWhereTheObjectDoes) { EXPECT_TRUE(GoneOn(60, 60).points.empty()); }
+TEST(TipExtender, EndsWhereTheObjectDoes) { EXPECT_TRUE(GoneOn(60, 60).points.empty()); }
 
 TEST(Significance, OfAStrandInTheBallsOfAnotherIsNextToNothing) {
   EXPECT_LT(StrandBeside(8), 0.25 * StrandBeside(24));

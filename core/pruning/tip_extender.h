@@ -1,5 +1,5 @@
-#ifndef BCCSKEL_CORE_PRUNING_WAY_ON_H_
-#define BCCSKEL_CORE_PRUNING_WAY_ON_H_
+#ifndef BCCSKEL_CORE_PRUNING_TIP_EXTENDER_H_
+#define BCCSKEL_CORE_PRUNING_TIP_EXTENDER_H_
 
 #include <optional>
 #include <span>
@@ -24,13 +24,13 @@ struct BranchPath {
 // Does:  continues by object points in the direction of the last ten points, each time to the one
 //        toward which the radius falls least, by at most kLongest. Adds nothing to the set.
 // Threads: one thread per instance.
-class WayOn {
+class TipExtender {
  public:
   static constexpr double kLongest = 3;        // lattice units
   static constexpr double kLargestRise = 0.5;  // of the radius: beyond, another limb begins
 
   // Needs: `radius` belongs to `object`, which outlives this.
-  WayOn(const Volume& object, const ExactRadius& radius);
+  TipExtender(const Volume& object, const ExactRadius& radius);
 
   // Needs: a path of at least two points.
   void Append(BranchPath& path);
@@ -48,14 +48,15 @@ class WayOn {
 };
 
 // The direction of the path around its point n, of length 1.
-Coordinates WayAt(std::span<const LatticePoint> path, size_t n, const AxisScale& scale);
+Coordinates DirectionAt(std::span<const LatticePoint> path, size_t n, const AxisScale& scale);
 
 // Extends the path by a point twice the last radius beyond its end where the border of an image
 // cuts the limb off: the path leads to the border, and the ball at its end reaches the border. (A
 // limb that ends before the border has a ball that does, too.) Ignores single points. Returns
 // whether it extended the path.
-bool GoOnBeyond(const std::optional<LatticeBox>& image, const AxisScale& scale, BranchPath& path);
+bool ExtendAcrossBorder(const std::optional<LatticeBox>& image, const AxisScale& scale,
+                        BranchPath& path);
 
 }  // namespace bccskel
 
-#endif  // BCCSKEL_CORE_PRUNING_WAY_ON_H_
+#endif  // BCCSKEL_CORE_PRUNING_TIP_EXTENDER_H_

@@ -1,4 +1,4 @@
-#include "core/pruning/way_on.h"
+#include "core/pruning/tip_extender.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,10 +19,10 @@ constexpr double kRadiiBeyond = 2;
 
 }  // namespace
 
-WayOn::WayOn(const Volume& object, const ExactRadius& radius)
+TipExtender::TipExtender(const Volume& object, const ExactRadius& radius)
     : scale_(AxisScaleOf(object.placement())), bricks_(object), radius_(radius) {}
 
-void WayOn::Append(BranchPath& path) {
+void TipExtender::Append(BranchPath& path) {
   const size_t last = path.points.size() - 1;
   const Coordinates end = PlaceOf(path.points[last], scale_);
   const Coordinates back = PlaceOf(path.points[last - std::min(last, kAimPoints)], scale_);
@@ -48,16 +48,17 @@ void WayOn::Append(BranchPath& path) {
   }
 }
 
-Coordinates WayAt(std::span<const LatticePoint> path, size_t n, const AxisScale& scale) {
+Coordinates DirectionAt(std::span<const LatticePoint> path, size_t n, const AxisScale& scale) {
   const LatticePoint from = path[n - std::min(n, kWayReach)];
   const LatticePoint to = path[std::min(n + kWayReach, path.size() - 1)];
   return Unit(Sum(PlaceOf(to, scale), -1, PlaceOf(from, scale)));
 }
 
-bool GoOnBeyond(const std::optional<LatticeBox>& image, const AxisScale& scale, BranchPath& path) {
+bool ExtendAcrossBorder(const std::optional<LatticeBox>& image, const AxisScale& scale,
+                        BranchPath& path) {
   if (!image.has_value() || path.points.size() < 2) return false;
   const LatticePoint end = path.points.back(), low = image->low, high = image->high;
-  const Coordinates way = WayAt(path.points, path.points.size() - 1, scale);
+  const Coordinates way = DirectionAt(path.points, path.points.size() - 1, scale);
   const float radius = path.radii.back();
   const auto leaves = [&](size_t axis, int32_t before, int32_t after) {
     const double reach = (radius + kBorderMargin) / scale[axis];
