@@ -72,7 +72,7 @@ absl::Status ExrContext::OpenForWriting(ByteSink& sink) {
 }
 
 absl::Status ExrContext::Finish() {
-  // exr_finish() gives no result of its own when the tables fail to be written: the sink knows.
+  // exr_finish() reports no error if it cannot write the tables, so ask the sink.
   absl::Status finished = Check(exr_finish(&context_), "end of file");
   BCCSKEL_RETURN_IF_ERROR(sink_status_);
   return finished;

@@ -46,8 +46,8 @@ struct ExrHeader {
 
 bool BeginsLikeExr(std::span<const std::byte> front);
 
-// Reads the headers of both parts with a parser of its own: OpenEXR's would take memory and time
-// for whatever a header claims.
+// Reads the headers of both parts without OpenEXR, whose parser would take memory and time for
+// whatever a header claims.
 // Errors: as ScanVolumeHeader().
 absl::StatusOr<ExrHeader> ScanExrHeader(std::span<const std::byte> front,
                                         const VolumeLimits& limits);

@@ -13,7 +13,7 @@ namespace {
 constexpr double kInside = 0.9;  // in radii
 constexpr Coordinates kAlongAll = {1, 1, 1};
 
-// A radius of a level is less than two to the power of the level.
+// Radii of a level are less than 2^level.
 size_t LevelOf(float radius) {
   return static_cast<size_t>(std::bit_width(static_cast<uint32_t>(radius)));
 }
@@ -91,8 +91,8 @@ bool BallIndex::IsCovered(LatticePoint p, double distance_to_junction, const Thi
   return false;
 }
 
-// Rounded, but no place has a cube before that of a smaller one, so what lies between two places
-// lies between their cubes. No call of the library.
+// Rounding is monotonic, so the cube of a place between two others lies between their cubes. Avoids
+// a library call.
 LatticePoint BallIndex::CubeOf(const Coordinates& place, size_t level) {
   constexpr int32_t kMost = 1 << 20;
   const double cubes_per_unit = 1 / static_cast<double>(uint64_t{2} << level);

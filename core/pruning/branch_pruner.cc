@@ -91,7 +91,7 @@ double BranchPruner::WorthOf(const FreeBranch& branch, LatticePoint junction) co
   }
 }
 
-// The largest radius of the cluster.
+// The largest radius in the cluster.
 double BranchPruner::BallAt(LatticePoint junction) const {
   float ball = 0;
   for (LatticePoint p : ClusterOf(junction)) ball = std::max(ball, set_.RadiusOf(p));
@@ -106,7 +106,7 @@ double BranchPruner::LengthTo(const FreeBranch& branch, LatticePoint junction) c
   return length;
 }
 
-// Points with three and more neighbors around a junction point.
+// Points around a junction point that have three or more neighbors.
 std::vector<LatticePoint> BranchPruner::ClusterOf(LatticePoint junction) const {
   std::vector<LatticePoint> cluster = {junction};
   for (size_t n = 0; n < cluster.size() && cluster.size() < kMostClusterPoints; ++n) {
@@ -119,7 +119,7 @@ std::vector<LatticePoint> BranchPruner::ClusterOf(LatticePoint junction) const {
   return cluster;
 }
 
-// Returns the points that went: the branch's and some at the junction.
+// Returns the removed points: those of the branch and some at the junction.
 std::vector<LatticePoint> BranchPruner::Remove(const FreeBranch& branch) {
   std::vector<LatticePoint> removed = branch.points;
   for (LatticePoint p : branch.points) set_.Remove(p);
@@ -134,8 +134,8 @@ std::vector<LatticePoint> BranchPruner::Remove(const FreeBranch& branch) {
   return removed;
 }
 
-// Looks again at the branches with a free end that start near these places, at each branch once:
-// it is met from all around its junction.
+// Judges the branches with a free end that start near these places again, each once although it is
+// found from several points of its junction.
 void BranchPruner::JudgeAround(const std::set<LatticePoint>& places) {
   std::set<LatticePoint> sources, ends;
   for (LatticePoint p : places) {
@@ -148,7 +148,7 @@ void BranchPruner::JudgeAround(const std::set<LatticePoint>& places) {
   for (LatticePoint end : ends) Judge(BranchFrom(set_, end));
 }
 
-// What lies beyond another source is found from there: long branches are followed once.
+// Stops at other sources, which find the rest, so that long branches are followed once.
 void BranchPruner::FindEndsBeyond(LatticePoint p, const std::set<LatticePoint>& sources,
                                   std::set<LatticePoint>& ends) const {
   if (set_.Degree(p) == 1) ends.insert(p);

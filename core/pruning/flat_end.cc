@@ -27,12 +27,12 @@ constexpr size_t kNormalReach = 4;     // points on either side
 constexpr double kWalkWidths = 1;      // so long before its end the limb is walked along
 constexpr double kWalkSlope = 0.85;    // no corners, so more: leaves taper by up to this
 constexpr double kWalkStep = 2;        // lattice units
-constexpr size_t kHeadingSteps = 12;   // the way is that of the last steps,
-constexpr size_t kLeastHeading = 6;    // if there are so many
-constexpr double kMostWiden = 1.3;     // what is wider is no limb
+constexpr size_t kHeadingSteps = 12;   // the direction is that of the last steps,
+constexpr size_t kLeastHeading = 6;    // if there are at least this many
+constexpr double kMostWiden = 1.3;     // wider parts are not the limb
 constexpr double kLeastInPlane = 0.3;  // of a way of length 1
 
-// Where the limb is about as wide as anywhere.
+// Whether the limb is flat where it is about as wide as anywhere.
 bool IsFlat(std::span<const FlatEnd::Place> places, double widest) {
   size_t wide = 0, flat = 0;
   for (const FlatEnd::Place& place : places) {
@@ -43,7 +43,7 @@ bool IsFlat(std::span<const FlatEnd::Place> places, double widest) {
   return 2 * flat > wide;
 }
 
-// `way` of length 1.
+// Needs: `way` has length 1.
 double MeritOf(double width, const Coordinates& out, const Coordinates& way) {
   const double along = Dot(way, out);
   const double aside = std::sqrt(std::max(Dot(out, out) - along * along, 0.0));
@@ -91,7 +91,7 @@ std::optional<FlatEnd::Tip> FlatEnd::In(std::span<const LatticePoint> path, cons
   return tip;
 }
 
-// Up to the best place.
+// The places up to the best one.
 std::vector<Coordinates> FlatEnd::MiddleFrom(Walker walker, double widest, double longest) {
   std::vector<Coordinates> places = {walker.place};
   size_t best = 0;
@@ -112,7 +112,7 @@ std::vector<Coordinates> FlatEnd::MiddleFrom(Walker walker, double widest, doubl
   return places;
 }
 
-// Returns whether there is a place to go on to.
+// Returns whether there is a next place.
 bool FlatEnd::Step(Walker& walker) {
   const auto in_plane = [&walker] {
     const Coordinates way = Sum(walker.way, -Dot(walker.way, walker.normal), walker.normal);
@@ -129,7 +129,7 @@ bool FlatEnd::Step(Walker& walker) {
   return in_plane();
 }
 
-// Half a step aside at most, and not near the rim ahead.
+// Moves at most half a step sideways, and not near the rim ahead.
 FlatEnd::Sides FlatEnd::MoveToMiddle(Walker& walker, double widest) {
   const double longest = kMostWiden * widest + kFlatMargin;
   const Coordinates left = Cross(walker.normal, walker.way), right = Sum({0, 0, 0}, -1, left);
@@ -145,7 +145,7 @@ FlatEnd::Sides FlatEnd::MoveToMiddle(Walker& walker, double widest) {
   return {width, ahead};
 }
 
-// From the end back, as far as an end may be cut; none where the limb is round.
+// From the end back as far as an end may be cut; none if the limb is round.
 std::vector<FlatEnd::Place> FlatEnd::WidePlaces(std::span<const LatticePoint> path,
                                                 const ThinSet& set) {
   std::vector<Place> places;
@@ -166,7 +166,7 @@ std::vector<FlatEnd::Place> FlatEnd::WidePlaces(std::span<const LatticePoint> pa
   return places;
 }
 
-// Noise may lie between a place and the background, so the normal is the mean of a few places'.
+// The mean over a few places, since noise may lie between a place and the background.
 Coordinates FlatEnd::NormalAt(std::span<const LatticePoint> path, size_t position,
                               const ThinSet& set) {
   const size_t first = position - std::min(position, kNormalReach);
@@ -179,7 +179,7 @@ Coordinates FlatEnd::NormalAt(std::span<const LatticePoint> path, size_t positio
   return Unit(sum);
 }
 
-// Of length 1.
+// Returns a vector of length 1.
 Coordinates FlatEnd::WayToBackground(std::span<const LatticePoint> path, size_t position,
                                      const ThinSet& set) {
   std::optional<Coordinates>& way = ways_[position];

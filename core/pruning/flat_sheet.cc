@@ -13,7 +13,7 @@ constexpr double kMostSheetThick = 24;      // to either side
 constexpr double kLeastNormalCosine = 0.7;  // of the normal and the way to background beside it
 constexpr double kNormalWeight = 0.25;      // of a new normal
 
-// Eighths of a half turn: cosine and sine, from the first on.
+// Eighths of half a turn, from the first: cosine and sine.
 constexpr std::array<std::array<double, 2>, 8> kSpreadTurns = {{{1, 0},
                                                                 {0, 1},
                                                                 {0.70710678, 0.70710678},
@@ -68,7 +68,7 @@ double FlatSheet::WayToRim(Coordinates place, const Coordinates& way, const Coor
   return longest;
 }
 
-// The place moved along the normal until it is in the object again, and one unit deeper.
+// The place, moved along the normal until it is in the object again and one unit deep.
 std::optional<Coordinates> FlatSheet::InSheetNear(const Coordinates& place,
                                                   const Coordinates& normal) {
   for (double off = 1; off <= kMostOff; ++off) {

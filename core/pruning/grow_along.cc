@@ -16,7 +16,7 @@ void CutBehind(size_t from, std::vector<LatticePoint>& path, ThinSet& set) {
   }
 }
 
-// The free neighbor of the end nearest to the place, if that is nearer than the end.
+// The free neighbor of the end that is nearest to the place, if it is nearer than the end.
 std::optional<LatticePoint> NextToward(const Coordinates& place, LatticePoint end,
                                        const std::function<bool(LatticePoint)>& may_add,
                                        const ThinSet& set) {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr size_t kMostSamples = 48;
 
-// Positions and radii.
+// Positions along the path, and radii.
 std::vector<std::pair<size_t, double>> SamplesOf(const BranchPath& path, size_t first) {
   const size_t last = path.points.size() - 1, stride = (last - first) / kMostSamples + 1;
   std::vector<std::pair<size_t, double>> samples;

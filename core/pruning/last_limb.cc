@@ -24,7 +24,7 @@ size_t LastLimb::BeginIn(const ThinSet& set, std::span<const LatticePoint> path,
   return first;
 }
 
-// By more than noise makes it, so that IsBranch(), which takes longer, is rarely asked for.
+// By more than noise causes, so that IsBranch(), which is slower, is rarely called.
 bool LastLimb::SticksOut(const ThinSet& set, LatticePoint root, LatticePoint tip) const {
   const double radius = set.RadiusOf(root), fallen = radius - set.RadiusOf(tip);
   const double allowance = noise_.Stretch(set.Way(root, tip)) * noise_.At(radius);

@@ -14,8 +14,8 @@ constexpr double kBendMargin = 2;     // and lattice units
 constexpr size_t kBendStride = 8;     // points between checks
 constexpr size_t kBendSamples = 16;
 
-// Position of the point, in a cap at the end at most, up to which the radius certainly follows a
-// ridge: beyond, the path may turn off into a corner. The end comes first.
+// Position of the last point, within a cap at the end, up to which the radius certainly follows a
+// ridge: beyond it the path may turn into a corner. The end comes first.
 size_t RidgeEnd(const ThinSet& set, std::span<const LatticePoint> points) {
   size_t ridge_end = 0;
   double length = 0, most = set.RadiusOf(points[0]);
@@ -30,8 +30,8 @@ size_t RidgeEnd(const ThinSet& set, std::span<const LatticePoint> points) {
   return ridge_end;
 }
 
-// Whether points, the ends of which are this far apart at least, leave the straight way by more
-// than a share of their median radius.
+// Whether points whose ends are at least this far apart deviate from a straight line by more than a
+// share of their median radius.
 bool Bends(const ThinSet& set, std::span<const LatticePoint> points, double least) {
   const LatticePoint a = points.front(), b = points.back();
   if (set.Between(a, b) < least) return false;

@@ -5,7 +5,7 @@
 namespace bccskel {
 namespace {
 
-// The birth at which a point needs twice as many passes as one born at once.
+// The birth at which a point needs twice as many passes as one born in the first pass.
 constexpr double kDeepBirth = 20;
 
 }  // namespace

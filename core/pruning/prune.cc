@@ -22,7 +22,7 @@
 namespace bccskel {
 namespace {
 
-// In the rule's own unit.
+// In the unit of the rule.
 double ThresholdOf(const PruningOptions& options, const Placement& placement) {
   const double threshold = WithDefaults(options).threshold;
   const bool in_world = options.rule == PruningRule::kLength;
@@ -44,7 +44,7 @@ absl::Status CheckCurves(const ThinSkeleton& curves, const PruningOptions& optio
       "pruning by persistence: needs to know when each point became an isthmus");
 }
 
-// Levels and tips need nothing of each other: on two workers, if there are as many.
+// Levels and tips are independent, so two workers compute them at the same time.
 void RunBoth(const std::function<void(const exec::Context&)>& first,
              const std::function<void(const exec::Context&)>& second, int workers,
              const exec::Context& context) {
@@ -63,7 +63,7 @@ void RunBoth(const std::function<void(const exec::Context&)>& first,
   });
 }
 
-// The path's deepest point, the one nearest to its middle where there are several.
+// The path's deepest point; of several, the one nearest to its middle.
 size_t DeepestOf(const ThinSet& set, const std::vector<LatticePoint>& path) {
   const auto rank = [&](size_t n) {
     const auto off = std::abs(2 * static_cast<int64_t>(n) + 1 - static_cast<int64_t>(path.size()));
@@ -88,9 +88,9 @@ bool HasLimb(const ThinSet& set, const std::vector<LatticePoint>& path, size_t d
   });
 }
 
-// What has no limb has no curve that another pose would not turn elsewhere: a cube has four
-// diagonals. So of a path whose two halves do not stick out of its deepest ball, and have no limb
-// that does, that ball's center stays.
+// The curve of an object without limbs depends on the pose: a cube has four equal diagonals. So a
+// path whose halves do not stick out of its deepest ball, and have no limb that does, shrinks to
+// that ball's center.
 void CollapsePaths(ThinSet& set, Significance& significance, double threshold,
                    const PointSet& keep) {
   constexpr double kMost = 0.25;  // a spheroid 1.3 times as long as thick has it
@@ -146,7 +146,7 @@ absl::StatusOr<ThinSkeleton> Prune(const ThinSkeleton& curves, const PrunedObjec
   const ExactRadius in_space = in.space == nullptr ? in.radius : ExactRadius(space);
   std::optional<TipExtender> extender;
   std::optional<FirmDepth> firm_depth;
-  // A voxel's edge is longer than what thinning leaves out, and its pit is deeper than a point's.
+  // A voxel's edge is longer than the part of a limb that thinning omits; its pit is a voxel deep.
   if (in.surface_step == 1) {
     extender.emplace(space, in_space);
   } else if (noise.roughness > 0) {

@@ -72,7 +72,7 @@ void SheetBurning::Burn(std::span<const uint8_t> kept, StopPoll& poll) {
   }
 }
 
-// From the last to the first: whom a fire reached through a point burned later.
+// From last to first, since points that a fire reached through another point burned later.
 void SheetBurning::Rate() {
   const auto hand_on = [&](PointIndex p) {
     const Fire& fire = fires_[p];
@@ -88,7 +88,7 @@ void SheetBurning::Rate() {
   for (PointIndex p = 0; p < points_.size(); ++p) {
     fires_[p].worth = fires_[p].arrival - points_[p].radius;
   }
-  // What does not burn was reached, too. The most of several is the same in any order.
+  // Points that do not burn were reached, too. A maximum does not depend on the order.
   for (PointIndex p = 0; p < points_.size(); ++p) {
     if (!fires_[p].is_out) hand_on(p);
   }

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kTwigSlope = 0.5;
 
-// What hangs on the rest by a curve: the curve's points and the patch that it ends in, or its end.
+// A part that only a curve connects to the rest: the curve, and the patch or point that it ends in.
 struct Twig {
   std::vector<PointIndex> points;
   PointIndex foot;  // the point of the rest where the curve begins
@@ -28,14 +28,14 @@ struct Twig {
 
 class TwigFinder {
  public:
-  // Of the points of `all` that are in `some`, which increases.
+  // Considers the points of `all` with the indices `some`, in increasing order.
   TwigFinder(const ThinPoints& all, std::vector<PointIndex> some, StopPoll& poll)
       : some_(std::move(some)),
         points_(all, some_, poll),
         clusters_(points_, poll),
         branches_(FollowBranches(points_, clusters_, poll)) {}
 
-  // With the indices of `all`.
+  // Indices are those of `all`.
   std::vector<Twig> Find() const {
     std::vector<Twig> twigs;
     for (const Branch& branch : branches_.between) {
@@ -50,7 +50,7 @@ class TwigFinder {
   }
 
  private:
-  // A sheet and its only twig hang on each other: the smaller one is the twig.
+  // Of a sheet and its only twig, either could be the twig of the other: the smaller one is.
   bool HangsOn(ClusterIndex end, ClusterIndex rest) const {
     const Cluster& cluster = clusters_[end];
     return cluster.branches == 1 && cluster.IsContractible() &&
@@ -93,7 +93,7 @@ class SheetPruner {
     }
   }
 
-  // Returns what is left, in lattice order; too much where the context says to stop.
+  // Returns the remaining points in lattice order; too many if the context says to stop.
   std::vector<PointIndex> Prune() {
     RemoveThin();
     do {
@@ -105,7 +105,7 @@ class SheetPruner {
   LatticePoint operator[](PointIndex p) const { return points_[p].point; }
 
  private:
-  // What is worth less than the margin, in the order in which it burned.
+  // Removes points worth less than the margin, in the order in which they burned.
   void RemoveThin() {
     const SheetBurning burning(points_, scale_, kept_, poll_);
     std::vector<uint32_t> turn(points_.size(), 0);  // from 1
@@ -119,7 +119,7 @@ class SheetPruner {
         [&](PointIndex p) { return turn[p]; }, poll_);
   }
 
-  // What is neither an end nor an isthmus, shallow points first.
+  // Removes points that are neither ends nor isthmuses, shallow ones first.
   void RemoveSimple() {
     const auto may_go = [&](PointIndex p) {
       return IsSimpleNonEnd(set_.mask(p)) && kept_[p] == 0 && points_[p].birth <= 0;
@@ -128,8 +128,8 @@ class SheetPruner {
         set_.Points(), may_go, [&](PointIndex p) { return points_[p].radius; }, poll_);
   }
 
-  // As the slope rule for curves, with the place where the curve leaves the sheet as the junction.
-  // Returns whether any went. A tunnel of a twig stays.
+  // Applies the slope rule for curves, with the place where the curve leaves the sheet as the
+  // junction. Keeps tunnels of twigs. Returns whether it removed any.
   bool RemoveTwigs() {
     const TwigFinder finder(points_, set_.Points(), poll_);
     if (poll_.StoppedNow()) return false;

@@ -30,7 +30,7 @@ constexpr double kBulge = 1.2;       // its radius at the end, in radii where it
 constexpr double kInJunction = 0.9;  // of the ball there
 constexpr size_t kCoverSamples = 16;
 
-// Quarter turns in eight steps: cosine and sine.
+// Half a turn in eight steps: cosine and sine.
 constexpr std::array<std::array<double, 2>, 8> kTurns = {{{1, 0},
                                                           {0.92387953, 0.38268343},
                                                           {0.70710678, 0.70710678},
@@ -40,7 +40,7 @@ constexpr std::array<std::array<double, 2>, 8> kTurns = {{{1, 0},
                                                           {-0.70710678, 0.70710678},
                                                           {-0.92387953, 0.38268343}}};
 
-// Tangents of further turns, to either side of the widest of these.
+// Tangents of smaller turns to either side of the widest of these.
 constexpr double kFirstTurn = 0.2, kLeastTurn = 0.01;
 
 BranchPath PathOf(const ThinSet& set, const FreeBranch& branch) {
@@ -50,13 +50,13 @@ BranchPath PathOf(const ThinSet& set, const FreeBranch& branch) {
   return path;
 }
 
-// Position in the path of one of the places that a run is looked at in.
+// Position in the path of one of the kPlaces places of a run.
 size_t PlaceIn(const Run& run, size_t place) {
   return run.from + (run.to - run.from) * place / (Significance::kPlaces - 1);
 }
 
-// Where a branch begins in the limb that a bulge sits on, lines across it run along that limb. A
-// bulge is thicker than the limb; its own places are those outside the ball that it begins in.
+// For a bulge, thicker than the limb that it sits on, the first place outside the ball at the
+// junction: inside, lines across the branch run along that limb.
 size_t FirstOwnPlace(const ThinSet& set, const BranchPath& path, const Run& run) {
   if (path.radii[run.to] < kBulge * path.radii[0]) return 0;
   size_t place = 0;
@@ -65,7 +65,7 @@ size_t FirstOwnPlace(const ThinSet& set, const BranchPath& path, const Run& run)
   return place;
 }
 
-// Of the values from the place on.
+// The median of the values from `place` on.
 double MedianFrom(std::array<double, Significance::kPlaces> values, size_t place) {
   const auto first = values.begin() + static_cast<std::ptrdiff_t>(place);
   const auto middle = first + (values.end() - first) / 2;
@@ -133,8 +133,8 @@ const Significance::Verdict* Significance::Known(const FreeBranch& branch) const
   return last->points == branch.points.size() ? last : nullptr;
 }
 
-// The limb may begin late in the largest run, in something wide: so the run of the later half
-// counts, too, that of the later half of this, and so on.
+// The largest run may begin in something wide and reach the limb late, so the run of its later half
+// is evaluated, too, then that of the later half of this one, and so on.
 Significance::Verdict Significance::Look(const ThinSet& set, const FreeBranch& branch) {
   BranchPath path = PathOf(set, branch);
   Verdict best{*branch.junction, branch.points.size(), RunOf(set, path)};
@@ -156,15 +156,15 @@ Significance::Verdict Significance::Look(const ThinSet& set, const FreeBranch& b
   return best;
 }
 
-// Shape and noise have nothing to do with each other, so their squares add. The margin makes up for
-// the thinnest limbs, for which that is less than the noise itself.
+// Shape and noise are independent, so their squares add. The margin is for the thinnest limbs, for
+// which this is less than the noise itself.
 double Significance::BeyondNoise(double elongation, double radius, const Coordinates& way) const {
   const double noise = noise_.Stretch(way) * (noise_.At(radius) + kNoiseMargin);
   if (elongation <= noise) return elongation - noise;
   return std::sqrt(elongation * elongation - noise * noise);
 }
 
-// What the object is wider than thick only lowers the value.
+// An upper bound: being wider than thick only lowers the value.
 double Significance::ValueAtMost(const ThinSet& set, const BranchPath& path, const Run& run) const {
   double most = 0;
   for (size_t place = 0; place < kRoots; ++place) {
@@ -201,12 +201,12 @@ double Significance::ValueOf(const ThinSet& set, const BranchPath& path, const R
   return value;
 }
 
-// What lies beyond the end is looked for where it may decide: it adds its length and the rise of
-// its radius at most. Likewise pits: they only make the radius smaller.
+// Extends the path beyond its end only if that may change the decision: it adds at most its length
+// and the rise of its radius. The same holds for pits, which only make radii smaller.
 Run Significance::RunOf(const ThinSet& set, BranchPath& path) {
   constexpr double kMost = TipExtender::kLongest + kSteepness * TipExtender::kLargestRise;
   const double way = set.Between(path.points[0], path.points.back());
-  // What is shorter leads to a face of a thin stack.
+  // A shorter branch leads to a face of a thin stack.
   if (way >= path.radii.back() && ExtendAcrossBorder(border_, scale_, path)) {
     return LargestRun(set, path, noise_);
   }
@@ -225,7 +225,7 @@ Run Significance::RunOf(const ThinSet& set, BranchPath& path) {
   return LargestRun(set, path, noise_);
 }
 
-// The rougher the surface, the more of the radii is that without pits.
+// Replaces radii by those without pits, in proportion to the roughness of the surface.
 void Significance::LookPastPits(BranchPath& path) {
   for (size_t n = 0; n < path.points.size(); ++n) {
     const double deeper = firm_depth_->At(path.points[n]) - path.radii[n];
@@ -233,10 +233,10 @@ void Significance::LookPastPits(BranchPath& path) {
   }
 }
 
-// The limb begins at the root that makes the most of it.
+// The value of the run with the root that gives the largest one.
 double Significance::BestRoot(const ThinSet& set, const BranchPath& path, const Run& run,
                               const Sections& sections) const {
-  // How much farther the object goes on to the sides than the radius.
+  // By how much the object is wider than the radius.
   std::array<double, kPlaces> wider;
   std::ranges::transform(sections, wider.begin(), [](const Section& section) {
     return std::max(section.half_width - section.radius, 0.0);
@@ -263,7 +263,7 @@ double Significance::BestRoot(const ThinSet& set, const BranchPath& path, const 
   return value;
 }
 
-// Points near the junction are not counted: there, other branches have to be near.
+// Skips points near the junction, where other branches are always near.
 double Significance::UncoveredShare(const ThinSet& set, const FreeBranch& branch, const Run& run) {
   if (!balls_.has_value()) balls_.emplace(set, scale_);
   balls_->SetOwn(branch.points);
@@ -293,7 +293,7 @@ Significance::Sections Significance::SectionsAcross(const BranchPath& path, cons
   return sections;
 }
 
-// A thin plate is left soon by lines that do not lie in it.
+// Lines that do not lie in a thin plate soon leave it.
 void Significance::TurnFinely(double reach, Section& section) {
   for (double turn = kFirstTurn; turn > kLeastTurn; turn /= 2) {
     const Coordinates from = section.side, across = Cross(section.way, from);
@@ -302,7 +302,7 @@ void Significance::TurnFinely(double reach, Section& section) {
   }
 }
 
-// The mean of the line's two sides counts: what lies at a limb's end has one side. Returns whether
+// Uses the mean of the line's two sides, since at a limb's end there is only one. Returns whether
 // this line is the widest so far.
 bool Significance::Widen(const Coordinates& side, double reach, Section& section) {
   const double start = std::floor(section.radius);
@@ -315,7 +315,7 @@ bool Significance::Widen(const Coordinates& side, double reach, Section& section
   return true;
 }
 
-// A straight line leaves a bent wall soon, so the widest goes on in it, to either side.
+// Follows a bent wall, which a straight line soon leaves, to both sides of the widest line.
 void Significance::FollowWall(double reach, Section& section) {
   const double there = WayInWall(FrontOf(section, section.side), section.radius, reach);
   const Front other = FrontOf(section, Sum({0, 0, 0}, -1, section.side));
@@ -323,8 +323,7 @@ void Significance::FollowWall(double reach, Section& section) {
   section.half_width = std::max(section.half_width, (there + back) / 2);
 }
 
-// A line may end early at noise or in a bend that it meets at a slant: the third shortest of 16
-// counts.
+// Uses the third shortest of 16 lines: noise, or a bend met at a slant, may end a line early.
 void Significance::FindInscribed(Section& section) {
   std::array<double, 3> least;
   least.fill(section.half_width);
@@ -351,8 +350,8 @@ double Significance::WayInWall(Front front, double radius, double reach) {
   return std::min(front.length + out, reach);
 }
 
-// Where the line leaves the wall it turns into the wall that stands there, or goes on from the
-// middle of its own. Returns whether it does: at a rim, or in what is no wall, it does not.
+// Where the line leaves its wall, continues in a wall that meets it there, or else from the middle
+// of its own wall. Returns false at a rim and where there is no wall.
 bool Significance::GoOnInWall(Front& front, double out, double radius) {
   if (out < kLeastOn * radius + 1) return false;
   const double back = std::min(out, radius);
@@ -377,8 +376,8 @@ bool Significance::GoOnInWall(Front& front, double out, double radius) {
   return true;
 }
 
-// How far the object goes on, up to `reach`, in whole lattice units. Needs: it does up to `start`,
-// a whole number. A single missing point is noise and passed over.
+// How far the object extends, up to `reach`, in whole lattice units. Skips single missing points,
+// which are noise. Needs: it extends to `start`, a whole number.
 double Significance::WayOut(const Coordinates& from, const Coordinates& way, double start,
                             double reach) {
   double out = start;

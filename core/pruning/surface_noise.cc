@@ -24,7 +24,7 @@ constexpr int kRow = 16, kLastRow = 48;  // bits
 // The six bricks beside a brick: +x, -x, +y, -y, +z, -z.
 using Beside = std::array<const BrickBits*, 6>;
 
-// Which points of layer k have an object point beside them, for each way.
+// Which points of layer k have an object point beside them, for each direction.
 std::array<uint64_t, 6> PlanesBeside(const BrickBits& own, const Beside& beside, size_t k) {
   const uint64_t word = own.words[k];
   const auto in = [&](size_t way) { return beside[way]->words[k]; };

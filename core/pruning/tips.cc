@@ -19,15 +19,15 @@
 namespace bccskel {
 namespace {
 
-// How much of the way along the limb a tip is worth. A box's corner, seen along the box, falls by 1
-// like a round cap, the end of a pointed limb by less until its tip.
+// Weight of the distance along the limb in a tip's merit. Toward a box's corner or the end of a
+// round cap the radius falls by 1 per unit, toward the tip of a pointed limb by less.
 constexpr double kSlope = 0.75;
 constexpr double kGainBySteps = 0.42;  // a tip farther out is better by so many surface steps
 constexpr double kGainByNoise = 0.06;  // and this share of the noise allowance, or noise made it
 constexpr double kHairLength = 6;  // in lattice units; longer ends of single points are thin limbs,
 constexpr double kHairRadii = 2;   // and what is longer by the limb's radius
-constexpr size_t kHeadingPoints = 10;  // the way on is that of the last points
-constexpr double kLeastCosine = 0.4;   // between the way on and a step
+constexpr size_t kHeadingPoints = 10;  // whose direction is the way ahead
+constexpr double kLeastCosine = 0.4;   // between the way ahead and a step
 constexpr double kCosineWeight = 0.5;  // against the rise of the distance
 constexpr double kGrowthMargin = 6;    // a tip grows by this and the radius at the limb's root
 constexpr double kPatience = 4;        // how far below the best a growing tip may fall
@@ -98,7 +98,7 @@ class TipPlacer {
     FindRoot(branch);
   }
 
-  // In flat limbs distances say nothing of where they end.
+  // In flat limbs the distance to the background does not show where they end.
   bool CutFlat(const FreeBranch& branch) {
     path_.assign(branch.points.rbegin(), branch.points.rend());
     const auto root = std::ranges::find(path_, root_);
@@ -110,7 +110,7 @@ class TipPlacer {
     return true;
   }
 
-  // Returns whether the limb grew along its middle; else nothing changed.
+  // Returns whether the limb grew along its middle; otherwise nothing changed.
   bool GrowInFlat(const FlatEnd::Tip& tip) {
     const auto behind = std::span(path_).subspan(tip.from + 1);
     const auto is_kept = [&](LatticePoint p) { return keep_.contains(p); };
@@ -125,7 +125,7 @@ class TipPlacer {
   double Along(LatticePoint p) const { return AlongFrom(set_, anchor_, aim_, p); }
 
   double Merit(LatticePoint p, double slope = kSlope) { return slope * Along(p) + depth_.At(p); }
-  // Merit() is no more: sums and products of more are no less, in floating point, too.
+  // An upper bound of Merit(), also in floating point, where sums and products are monotonic.
   double MeritAtMost(LatticePoint p, double slope = kSlope) const {
     return slope * Along(p) + depth_.AtMost(p);
   }
@@ -161,7 +161,7 @@ class TipPlacer {
         kDirections14, [&](LatticePoint offset) { return bricks_.Contains(p + offset); }));
   }
 
-  // Near their tips thin limbs have no points with many neighbors.
+  // Thin limbs have no points with many neighbors near their tips.
   void FindMajority() {
     std::vector<float> counts;
     for (LatticePoint p : path_) counts.push_back(static_cast<float>(NeighborsOf(p)));
@@ -171,7 +171,7 @@ class TipPlacer {
   // Whether p takes the side of the majority.
   bool IsFirm(LatticePoint p) { return NeighborsOf(p) >= majority_; }
 
-  // Where noise lies on the surface the path may end in single points, where no tip is.
+  // On a noisy surface the path may end in single points, which are no tip.
   void CutHair() {
     size_t last = path_.size() - 1;
     while (last > 0 && !IsFirm(path_[last])) --last;
@@ -182,24 +182,24 @@ class TipPlacer {
     if (IsFirm(path_[last]) && length <= longest) CutAfter(last);
   }
 
-  // Position in the path of the first point that may become the tip. What is cut off must lie in
-  // the cap that the new tip is the center of, and the new tip in the limb: a body behind a short
-  // limb, or a bead, has a larger distance than the limb, but the limb is no part of it.
+  // Position in the path of the first point that may become the tip. The points cut off must lie in
+  // the cap around the new tip, and the new tip must lie in the limb, not in a body behind a short
+  // limb or in a bead, whose distances are larger.
   size_t FirstCut() {
     size_t first = path_.size() - 1;
     while (first > 0 && path_[first] != root_ && IsInCapOf(path_[first - 1])) --first;
     return last_limb_.BeginIn(set_, path_, first);
   }
 
-  // The depth is no less than the radius, so mostly that is enough.
+  // The depth is at least the radius, so testing the radius is usually enough.
   bool IsInCapOf(LatticePoint p) {
     const double way = set_.Between(path_.back(), p);
     return way <= kCutRadii * set_.RadiusOf(p) + kCutMargin ||
            way <= kCutRadii * depth_.At(p) + kCutMargin;
   }
 
-  // Thinning may leave the ridge before it ends, so the path grows anew from where it is on the
-  // ridge for sure. Single points do not grow.
+  // Thinning may leave the ridge before the limb ends, so the path is grown again from the last
+  // point that is certainly on the ridge. Single points do not grow.
   void GrowAnew(size_t first) {
     if (!IsFirm(path_.back())) return;
     CutAfter(BestFrom(first, kRidgeSlope));
@@ -224,7 +224,7 @@ class TipPlacer {
     return junction_.has_value() && balls_.IsCovered(p, set_.Between(p, *junction_), set_);
   }
 
-  // Its radius is measured once it is sure to stay: most points do not.
+  // Its radius is measured later, since most points are removed again.
   void Append(LatticePoint p) {
     set_.Add(p, 0);
     path_.push_back(p);
@@ -236,7 +236,7 @@ class TipPlacer {
     }
   }
 
-  // A point to go on to.
+  // A candidate for the next point.
   struct Step {
     LatticePoint to;
     size_t rank = 0;
@@ -245,8 +245,8 @@ class TipPlacer {
     double score_most = 0;    // the score is no more
   };
 
-  // The object point to go on to, the first of the best; its only neighbor in the set is the tip.
-  // Depths are searched for, so the steps that may be best come first: they rule out most others.
+  // The next object point, the first of the best; its only neighbor in the set is the tip. Finding
+  // depths is slow, so the most promising steps come first and rule out most others.
   std::optional<LatticePoint> NextTip() {
     const double depth = depth_.At(path_.back());
     const Step* best = nullptr;

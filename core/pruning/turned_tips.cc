@@ -42,7 +42,7 @@ std::vector<Arm> ArmsOf(const ThinSet& set, std::span<const LatticePoint> cluste
   return arms;
 }
 
-// The vector along the limb's last two radii into the fork; none if the limb is shorter.
+// The direction of the limb over its last two radii before the fork; none if it is shorter.
 std::optional<Coordinates> WayOfLimb(const ThinSet& set, const Arm& limb, LatticePoint fork) {
   const double far = kLimbRadii * set.RadiusOf(fork);
   for (LatticePoint p : limb.points) {

@@ -48,7 +48,7 @@ class Filler {
   Range Within(double center, double reach, size_t axis, int32_t size) const {
     return IntegersWithin(center, reach / UnitAlong(axis), size);
   }
-  // What is left of a reach so many lattice units off along an axis.
+  // The radius of a ball's section, `off` lattice units from its center along an axis.
   double Leg(double reach, double off, size_t axis) const {
     const double leg = off * UnitAlong(axis);
     return std::sqrt(std::max(0.0, reach * reach - leg * leg));

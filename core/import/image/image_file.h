@@ -19,8 +19,8 @@ class ImageFile {
   // `name` is used for its ending and in messages.
   static std::shared_ptr<const ImageFile> OfBytes(std::string name, std::string bytes);
 
-  // Opens the file in the same folder that a header names as the place of its voxels. A header can
-  // name nothing else: whoever wrote it shall not choose what is read elsewhere.
+  // Opens the file in the same folder that a header names as the place of its voxels. A header
+  // cannot name a file in another folder, or its author could choose which files are read.
   // Errors: as Open(); INVALID_ARGUMENT for a name with a folder, and for bytes in memory.
   absl::StatusOr<std::shared_ptr<const ImageFile>> OpenBeside(const std::string& name) const;
 

@@ -31,13 +31,13 @@ absl::StatusOr<ImageFront> ReadFront(std::shared_ptr<const ImageFile> file,
 absl::StatusOr<ImageFront> ReadMemberFront(std::shared_ptr<const ImageFile> file, uint64_t member,
                                            const ImageLimits& limits);
 
-// Where the voxels begin, for a header that is followed by them. `inner` tells how the voxels alone
-// are compressed.
+// Where the voxels begin, for a header that is followed by them. `inner` is the compression of
+// the voxels alone.
 // Errors: INVALID_ARGUMENT for voxels compressed twice.
 absl::Status PlaceBehindHeader(const ImageFront& front, uint64_t header_bytes, Compression inner,
                                StoredImage& image);
 
-// Voxels in a file of their own beside the header, behind `skip` bytes; nothing: at its end.
+// Voxels in a separate file beside the header, after `skip` bytes, or at its end without `skip`.
 // Errors: as ImageFile::OpenBeside().
 absl::Status PlaceInFile(const ImageFront& front, std::string_view name,
                          std::optional<uint64_t> skip, Compression inner, StoredImage& image);

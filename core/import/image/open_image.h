@@ -27,7 +27,7 @@ absl::StatusOr<std::unique_ptr<ImageSource>> OpenImage(const std::string& path,
                                                        const ImageOptions& options = {});
 
 // Whether images of the format that the path leads to have what `options` choose of it: a channel,
-// a time point, a level, a series. OK where nothing can be told. OpenImage() checks the number.
+// a time point, a level, a series. OK if the format does not say. OpenImage() checks the number.
 // Errors: INVALID_ARGUMENT.
 absl::Status CheckImageChoice(const std::string& path, const ImageOptions& options);
 

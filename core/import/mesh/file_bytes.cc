@@ -31,7 +31,7 @@ absl::Status DamagedError(const std::string& path, gzFile file) {
       absl::StrFormat("'%s' is a damaged or cut gzip stream: %s", path, text));
 }
 
-// Reads to the end; gzerror() tells at the end of input whether the stream was complete.
+// Reads to the end; at the end of input gzerror() reports whether the stream was complete.
 absl::StatusOr<std::string> ReadAll(const std::string& path, gzFile file, uint64_t max_bytes) {
   std::string bytes;
   while (true) {

@@ -10,8 +10,8 @@
 namespace bccskel {
 namespace {
 
-// Numbers that a file may show: so many of any file, and so many per byte. A scene that draws each
-// of its meshes a hundred times stays below.
+// How many numbers a file may contain: a constant, and more per byte of the file. A scene that
+// draws each of its meshes a hundred times stays below.
 constexpr uint64_t kFreeNumbers = uint64_t{1} << 22;
 constexpr uint64_t kNumbersPerByte = 32;
 

@@ -53,7 +53,7 @@ class PlyBody {
     return value;
   }
 
-  // False when so many values cannot follow.
+  // False if the rest of the file cannot hold that many values.
   bool CanHold(uint64_t count, Scalar type) const {
     const size_t size = encoding_ == PlyEncoding::kAscii ? 1 : ScalarBytes(type);
     return count <= bytes_.size() / size;

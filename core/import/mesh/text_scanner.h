@@ -45,7 +45,7 @@ class TextScanner {
 };
 
 // The whole token as a number, correctly rounded; nothing when it is not one or does not fit.
-// "nan" and "inf" are numbers here: whoever needs finite values checks, and can name the place.
+// "nan" and "inf" are numbers here: callers that need finite values check, and can name the place.
 std::optional<double> ParseDouble(std::string_view token);
 std::optional<int64_t> ParseInteger(std::string_view token);
 

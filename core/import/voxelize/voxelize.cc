@@ -220,7 +220,7 @@ class Voxelizer {
                      (kFarMore * static_cast<double>(target)));
   }
 
-  // Points = 2 * volume / spacing^3, so each count tells a better spacing. The count jumps where
+  // Points = 2 * volume / spacing^3, so each count gives a better spacing. The count jumps where
   // flat walls cross whole layers of points; the second half of the tries moves the grid off the
   // middle, where opposite walls jump at different spacings.
   absl::StatusOr<Volume> FillToCount(uint64_t target) {
