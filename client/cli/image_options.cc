@@ -35,6 +35,10 @@ void AddGrid(CLI::App& command, VoxelizeOptions& grid) {
   AddChoice<FillRule>(
       command, "--fill", grid.fill, "What is inside a mesh (default auto)",
       {{"auto", FillRule::kAuto}, {"parity", FillRule::kParity}, {"winding", FillRule::kWinding}});
+  AddChoice<ThinParts>(command, "--thin-parts", grid.thin_parts,
+                       "Parts of a mesh thinner than two lattice units: keep (default) adds the "
+                       "points that leave them whole, sample adds none",
+                       {{"keep", ThinParts::kKeep}, {"sample", ThinParts::kSample}});
 }
 
 namespace {

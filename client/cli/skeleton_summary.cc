@@ -89,6 +89,9 @@ std::string SkeletonSummaryText(const SkeletonSummary& summary) {
   Text text;
   text.Add("input:     ", FileName(summary.arguments.input));
   if (summary.mesh.has_value()) text.Add(", ", MeshPhrase(summary.mesh->mesh));
+  if (summary.mesh.has_value() && summary.mesh->added_points > 0) {
+    text.Add("\nthin:      ", ThinPartsPhrase(*summary.mesh));
+  }
   if (summary.image.has_value()) text.Add(", ", ImagePhrase(*summary.image));
   if (certificate.mask.has_value()) text.Add("\nmask:      ", BettiPhrase(*certificate.mask));
   if (certificate.unprepared.has_value()) {

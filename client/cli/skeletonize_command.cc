@@ -77,8 +77,7 @@ absl::StatusOr<Object> FromMesh(const SkeletonizeArguments& arguments,
   BCCSKEL_ASSIGN_OR_RETURN(VoxelizeResult result,
                            VoxelizeFile(arguments.input, arguments.grid, context));
   for (const std::string& warning : result.warnings) Warn(arguments.input + ": " + warning);
-  return Object{std::move(result.volume),
-                MeshStage{std::move(result.mesh), result.fill, std::move(result.warnings)}};
+  return Object{std::move(result.volume), MeshStageOf(result)};
 }
 
 absl::StatusOr<Object> FromVolume(const SkeletonizeArguments& arguments,

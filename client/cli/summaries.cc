@@ -163,9 +163,20 @@ std::string FilesJson(const ResultArguments& arguments) {
          ",\"output\":" + JsonString(arguments.output);
 }
 
+MeshStage MeshStageOf(VoxelizeResult& result) {
+  return {std::move(result.mesh), result.fill, result.added_points, std::move(result.warnings)};
+}
+
+std::string ThinPartsPhrase(const MeshStage& stage) {
+  if (stage.added_points == 0) return "";
+  return exporting::Counted(stage.added_points, "point", "points") +
+         " added, so that parts thinner than two lattice units stay whole";
+}
+
 std::string MeshStageJson(const MeshStage& stage) {
   return "\"mesh\":" + MeshJson(stage.mesh) + ",\"fill\":\"" + FillRuleName(stage.fill) +
-         "\",\"warnings\":" + JsonStrings(stage.warnings);
+         "\",\"added_points\":" + std::to_string(stage.added_points) +
+         ",\"warnings\":" + JsonStrings(stage.warnings);
 }
 
 std::string FillRuleName(FillRule rule) {

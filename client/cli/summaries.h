@@ -62,8 +62,12 @@ std::string FilesJson(const ResultArguments& arguments);
 struct MeshStage {
   MeshReport mesh;
   FillRule fill = FillRule::kParity;
+  uint64_t added_points = 0;
   std::vector<std::string> warnings;
 };
+MeshStage MeshStageOf(VoxelizeResult& result);  // moves from it what it takes
+// "501 points added, so that parts thinner than two lattice units stay whole"; "" if none were.
+std::string ThinPartsPhrase(const MeshStage& stage);
 std::string MeshStageJson(const MeshStage& stage);
 
 // What `skeletonize` and `submit` report at their end.

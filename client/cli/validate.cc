@@ -43,10 +43,11 @@ absl::Status CheckObject(const std::string& input, const VoxelizeOptions& grid,
   const absl::StatusOr<InputKind> kind = InputKindOf(input, image);
   if (!kind.ok()) return absl::OkStatus();
   const std::string is = "; " + input + " is " + std::string(InputKindPhrase(*kind));
-  const bool grid_given =
-      grid.points.has_value() || grid.spacing.has_value() || grid.fill != FillRule::kAuto;
+  const bool grid_given = grid.points.has_value() || grid.spacing.has_value() ||
+                          grid.fill != FillRule::kAuto || grid.thin_parts != ThinParts::kKeep;
   if (grid_given && *kind != InputKind::kMesh) {
-    return absl::InvalidArgumentError("--points, --spacing and --fill are for meshes" + is);
+    return absl::InvalidArgumentError(
+        "--points, --spacing, --fill and --thin-parts are for meshes" + is);
   }
   if (*kind == InputKind::kImage) return CheckImageChoice(input, image.open);
   if (!image.given) return absl::OkStatus();

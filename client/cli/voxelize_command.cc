@@ -26,9 +26,10 @@ struct Voxelized {
 };
 
 Story MeshStory(const MeshStage& stage) {
-  return {"mesh:        " + MeshPhrase(stage.mesh) + "\nfilled by:   " + FillRuleName(stage.fill) +
-              '\n',
-          MeshStageJson(stage)};
+  std::string text = "mesh:        " + MeshPhrase(stage.mesh) +
+                     "\nfilled by:   " + FillRuleName(stage.fill) + '\n';
+  if (stage.added_points > 0) text += "thin parts:  " + ThinPartsPhrase(stage) + '\n';
+  return {std::move(text), MeshStageJson(stage)};
 }
 
 Story ImageStory(const ImageStage& image) {
@@ -42,8 +43,7 @@ absl::StatusOr<Voxelized> FromMesh(const VoxelizeArguments& arguments,
   BCCSKEL_ASSIGN_OR_RETURN(VoxelizeResult result,
                            VoxelizeFile(arguments.input, arguments.grid, context));
   for (const std::string& warning : result.warnings) Warn(arguments.input + ": " + warning);
-  return Voxelized{std::move(result.volume),
-                   MeshStory({std::move(result.mesh), result.fill, std::move(result.warnings)})};
+  return Voxelized{std::move(result.volume), MeshStory(MeshStageOf(result))};
 }
 
 absl::StatusOr<Voxelized> FromImage(const VoxelizeArguments& arguments,

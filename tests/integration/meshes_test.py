@@ -203,6 +203,26 @@ class MeshesTest(harness.TestCase):
         nibabel.freesurfer.write_morph_data(self.path("lh.thickness"), numpy.ones(8, "f4"))
         self.fail_with(3, "values per vertex (as lh.thickness)", "info", self.path("lh.thickness"))
 
+    def test_a_thin_plate_is_whole_and_sampled_on_request(self):
+        # Half a lattice unit thick; it leans, so that most lattice points pass it by.
+        corners = [(x, y, z + 0.3 * x + 0.4 * y)
+                   for z in (0, 0.25) for y in (0, 20) for x in (0, 30)]
+        faces = [(0, 2, 1), (1, 2, 3), (4, 5, 6), (5, 7, 6), (0, 1, 4), (1, 5, 4),
+                 (2, 6, 3), (3, 6, 7), (0, 4, 2), (2, 4, 6), (1, 3, 5), (3, 7, 5)]
+        (self.folder / "plate.off").write_text(to_off(corners, faces))
+        plate = (self.path("plate.off"), "--local", "--spacing", 1, "-o", self.path("p.json"))
+        text = harness.bccskel("skeletonize", *plate).stdout
+        self.assertRegex(text, r"thin: +[0-9,]+ points added, so that parts thinner than two")
+        self.assertRegex(text, r"object: .*, 1 component, 0 loops, 0 cavities")
+        kept = self.summarize("skeletonize", *plate)
+        self.assertGreater(kept["added_points"], kept["object_points"] / 2)
+        sampled = json.loads(harness.bccskel("skeletonize", *plate, "--thin-parts", "sample",
+                                             "--json").stdout)
+        self.assertEqual(sampled["added_points"], 0)
+        self.assertGreater(sampled["certificate"]["input"]["components"], 100)
+        self.fail_with(2, "--thin-parts are for meshes", "skeletonize", self.generate("ball"),
+                       "--local", "--thin-parts", "sample", "-o", self.path("b.json"))
+
     def test_results_are_told_from_meshes(self):
         vtp, glb = self.path("s.vtp"), self.path("s.glb")
         self.succeed("skeletonize", self.path("mesh.off"), "--local", "--points", 3000, "-o", vtp,

@@ -61,6 +61,7 @@ class _MeshOptions(_SkeletonOptions, total=False):
     points: int
     spacing: float
     fill: Literal["auto", "parity", "winding"]
+    thin_parts: Literal["keep", "sample"]
 
 class _FileOptions(TypedDict, total=False):
     voxel_size: tuple[float, float, float]

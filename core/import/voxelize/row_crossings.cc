@@ -36,10 +36,9 @@ std::array<GridPoint, 3> Corners(const FillRequest& request, size_t triangle) {
   return {request.vertices[a], request.vertices[b], request.vertices[c]};
 }
 
-}  // namespace
-
-void AppendCrossings(const FillRequest& request, size_t triangle, Slab slab,
-                     std::vector<RowCrossing>& crossings) {
+// Calls visit(row, first tick behind the crossing, winding) for every row of the slab that crosses.
+template <typename Visit>
+void ForEachCrossing(const FillRequest& request, size_t triangle, Slab slab, Visit visit) {
   const auto [a, b, c] = Corners(request, triangle);
   const RayTriangle shape(a, b, c);
   if (shape.parallel()) return;
@@ -50,12 +49,26 @@ void AppendCrossings(const FillRequest& request, size_t triangle, Slab slab,
       const int64_t z = TickOf(k, sublattice);
       const CellSpan columns = CellsIn(shape.CrossedColumns(z), sublattice);
       for (int32_t j = columns.begin; j < columns.end; ++j) {
-        const int64_t x = shape.FirstBehind(TickOf(j, sublattice), z);
-        crossings.push_back(
-            {RowKey({sublattice, j, k}), CellFrom(x, sublattice), winding, /*crossings=*/1});
+        visit(LatticeRow{sublattice, j, k}, shape.FirstBehind(TickOf(j, sublattice), z), winding);
       }
     }
   }
+}
+
+}  // namespace
+
+void AppendCrossings(const FillRequest& request, size_t triangle, Slab slab,
+                     std::vector<RowCrossing>& crossings) {
+  ForEachCrossing(request, triangle, slab, [&](LatticeRow row, int64_t x, int16_t winding) {
+    crossings.push_back({RowKey(row), CellFrom(x, row.sublattice), winding, /*crossings=*/1});
+  });
+}
+
+void AppendHits(const FillRequest& request, uint32_t triangle, Slab slab,
+                std::vector<RowHit>& hits) {
+  ForEachCrossing(request, triangle, slab, [&](LatticeRow row, int64_t x, int16_t winding) {
+    hits.push_back({RowKey(row), x, triangle, winding});
+  });
 }
 
 void AppendMarks(const SegmentRule::Region& region, Slab slab,

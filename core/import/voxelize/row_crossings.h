@@ -42,6 +42,14 @@ struct RowCrossing {
   int16_t crossings = 1;  // 0 for a mark that only cuts a segment
 };
 
+// The same, exactly.
+struct RowHit {
+  RowKey row;
+  int64_t x = 0;  // the first tick behind the crossing
+  uint32_t triangle = 0;
+  int16_t winding = 0;
+};
+
 // A half-open range of layers of bricks.
 struct Slab {
   int32_t begin_bz = 0;
@@ -51,6 +59,10 @@ struct Slab {
 // Appends the crossings of one triangle with the rows of the slab.
 void AppendCrossings(const FillRequest& request, size_t triangle, Slab slab,
                      std::vector<RowCrossing>& crossings);
+
+// The same as hits.
+void AppendHits(const FillRequest& request, uint32_t triangle, Slab slab,
+                std::vector<RowHit>& hits);
 
 // Appends marks at both ends of the region's rows in the slab.
 void AppendMarks(const SegmentRule::Region& region, Slab slab, std::vector<RowCrossing>& crossings);

@@ -7,6 +7,7 @@
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
 #include "core/import/voxelize/row_crossings.h"
+#include "core/import/voxelize/slab_plan.h"
 
 namespace bccskel {
 namespace {
@@ -14,7 +15,6 @@ namespace {
 // Bounds on the work, far above what real meshes need: a hostile one is refused, not served.
 constexpr double kMaxRows = 4e9;
 constexpr double kMaxCrossings = 1 << 27;
-constexpr int kMaxSlabs = 256;
 constexpr size_t kTrianglesBetweenStops = 1 << 14;
 
 absl::Status CheckWork(const FillRequest& request, const SegmentRule& rule) {
@@ -34,69 +34,6 @@ absl::Status CheckWork(const FillRequest& request, const SegmentRule& rule) {
                       "%.3g): choose a larger spacing or fewer points",
                       total.crossings, kMaxCrossings, total.rows, kMaxRows));
 }
-
-// Slabs of brick layers and the triangles that reach each of them.
-class SlabPlan {
- public:
-  explicit SlabPlan(const FillRequest& request) {
-    const int layers = (request.extent.nz + kBrickZ - 1) / kBrickZ;
-    const size_t most = 8 * request.triangles.size() + (1 << 20);
-    std::vector<Slab> layers_of;  // by triangle
-    layers_of.reserve(request.triangles.size());
-    for (size_t t = 0; t < request.triangles.size(); ++t) {
-      layers_of.push_back(LayersOf(request, t));
-    }
-    int slabs = std::min(layers, kMaxSlabs);
-    while (slabs > 1 && CountVisits(layers_of, layers, slabs) > most) slabs /= 2;
-    Assign(layers_of, layers, slabs);
-  }
-
-  size_t size() const { return slabs_.size(); }
-  Slab slab(size_t n) const { return slabs_[n]; }
-  std::span<const uint32_t> triangles(size_t n) const {
-    return std::span(triangles_).subspan(begin_[n], begin_[n + 1] - begin_[n]);
-  }
-
- private:
-  void SetSlabs(int layers, int slabs) {
-    thickness_ = (layers + slabs - 1) / slabs;
-    slabs_.clear();
-    for (int bz = 0; bz < layers; bz += thickness_) {
-      slabs_.push_back({bz, std::min(bz + thickness_, layers)});
-    }
-  }
-
-  template <typename Visit>
-  void ForEachSlabIn(Slab layers, Visit visit) const {
-    const int last = std::min((layers.end_bz - 1) / thickness_, static_cast<int>(size()) - 1);
-    for (int n = layers.begin_bz / thickness_; n <= last; ++n) visit(static_cast<size_t>(n));
-  }
-
-  size_t CountVisits(std::span<const Slab> layers_of, int layers, int slabs) {
-    SetSlabs(layers, slabs);
-    size_t visits = 0;
-    for (Slab reached : layers_of) ForEachSlabIn(reached, [&](size_t) { ++visits; });
-    return visits;
-  }
-
-  void Assign(std::span<const Slab> layers_of, int layers, int slabs) {
-    SetSlabs(layers, slabs);
-    begin_.assign(size() + 1, 0);
-    for (Slab reached : layers_of) ForEachSlabIn(reached, [&](size_t n) { ++begin_[n + 1]; });
-    for (size_t n = 0; n < size(); ++n) begin_[n + 1] += begin_[n];
-    triangles_.resize(begin_.back());
-    std::vector<size_t> next(begin_.begin(), begin_.end() - 1);
-    for (size_t t = 0; t < layers_of.size(); ++t) {
-      ForEachSlabIn(layers_of[t],
-                    [&](size_t n) { triangles_[next[n]++] = static_cast<uint32_t>(t); });
-    }
-  }
-
-  int thickness_ = 1;
-  std::vector<Slab> slabs_;
-  std::vector<size_t> begin_;
-  std::vector<uint32_t> triangles_;
-};
 
 // Bricks in the order of their keys.
 struct BrickList {

@@ -1,7 +1,10 @@
 #include "core/import/voxelize/solid_fill.h"
 
+#include <utility>
+
 #include "core/import/voxelize/generalized_winding.h"
 #include "core/import/voxelize/row_fill.h"
+#include "core/import/voxelize/thin_parts.h"
 
 namespace bccskel {
 namespace {
@@ -64,14 +67,25 @@ void SolidFill::AddCaps() {
   signs_.assign(triangles_.size(), sign);
 }
 
-absl::StatusOr<Volume> SolidFill::Fill(const GridFit& fit, const exec::Context& context) const {
+FillRequest SolidFill::RequestOn(const GridFit& fit) const {
   FillRequest request = {fit.extent, fit.placement, {}, triangles_, signs_, max_points_};
   request.vertices.reserve(vertices_.size());
   for (const auto& vertex : vertices_) request.vertices.push_back(fit.Snap(vertex));
+  return request;
+}
+
+absl::StatusOr<Volume> SolidFill::Fill(const FillRequest& request,
+                                       const exec::Context& context) const {
   if (rule_ == FillRule::kParity) return FillRows(request, ParityRule(), context);
   if (caps_.caps.empty()) return FillRows(request, WindingRule(), context);
-  const GeneralizedWindingRule rule(request.vertices, caps_, fit.extent, signs_.front());
+  const GeneralizedWindingRule rule(request.vertices, caps_, request.extent, signs_.front());
   return FillRows(request, rule, context);
+}
+
+absl::StatusOr<Volume> SolidFill::KeepThinParts(Volume sampling, const FillRequest& request,
+                                                const exec::Context& context) const {
+  if (rule_ == FillRule::kParity) return sampling;
+  return WithThinParts(std::move(sampling), request, surface_.triangles.size(), context);
 }
 
 }  // namespace bccskel

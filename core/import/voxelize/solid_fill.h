@@ -10,6 +10,7 @@
 #include "core/import/voxelize/boundary_caps.h"
 #include "core/import/voxelize/fill_rule.h"
 #include "core/import/voxelize/grid_fit.h"
+#include "core/import/voxelize/row_fill.h"
 #include "core/volume/volume.h"
 
 namespace bccskel {
@@ -20,8 +21,13 @@ class SolidFill {
   // Needs: kParity or kWinding, allowed for the surface by ChooseFillRule(); `surface` stays.
   SolidFill(const Surface& surface, FillRule rule, uint64_t max_points);
 
+  FillRequest RequestOn(const GridFit& fit) const;
   // Errors: as FillRows().
-  absl::StatusOr<Volume> Fill(const GridFit& fit, const exec::Context& context) const;
+  absl::StatusOr<Volume> Fill(const FillRequest& request, const exec::Context& context) const;
+  // Adds points to what Fill() made of the request, so that thin parts stay whole.
+  // Errors: as WithThinParts().
+  absl::StatusOr<Volume> KeepThinParts(Volume sampling, const FillRequest& request,
+                                       const exec::Context& context) const;
 
  private:
   // Closes an open surface; the caps are taken out again by the generalized winding number.

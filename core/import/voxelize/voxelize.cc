@@ -103,7 +103,17 @@ class Voxelizer {
     BCCSKEL_RETURN_IF_ERROR(CheckSize(surface_));
     warnings_ = DefectWarnings(surface_.report, result.fill);
     fill_.emplace(surface_, result.fill, options_.max_points);
-    BCCSKEL_ASSIGN_OR_RETURN(result.volume, FillAsAsked());
+    BCCSKEL_ASSIGN_OR_RETURN(Sampling sampling, FillAsAsked());
+    const uint64_t inside = sampling.volume.PointCount();
+    if (options_.thin_parts == ThinParts::kKeep) {
+      BCCSKEL_ASSIGN_OR_RETURN(sampling.volume, fill_->KeepThinParts(std::move(sampling.volume),
+                                                                     sampling.request, context_));
+    }
+    result.volume = std::move(sampling.volume);
+    if (result.volume.empty()) {
+      warnings_.push_back("no lattice point is inside: the spacing is too large for this mesh");
+    }
+    result.added_points = result.volume.PointCount() - inside;
     if (options_.topology == TopologyCheck::kCompare && !result.volume.empty()) {
       BCCSKEL_ASSIGN_OR_RETURN(result.topology, CountBettiNumbers(result.volume, context_));
       BCCSKEL_RETURN_IF_ERROR(CompareTopology(result));
@@ -114,13 +124,16 @@ class Voxelizer {
   }
 
  private:
-  absl::StatusOr<Volume> FillAsAsked() {
+  // The lattice points inside on one grid.
+  struct Sampling {
+    FillRequest request;
+    Volume volume;
+  };
+
+  absl::StatusOr<Sampling> FillAsAsked() {
     if (!options_.spacing) return FillToCount(*options_.points);
     const double unit_spacing = *options_.spacing / surface_.half_size / 2;
-    BCCSKEL_ASSIGN_OR_RETURN(Volume volume, Fill(unit_spacing, options_.shift));
-    if (volume.empty())
-      warnings_.push_back("no lattice point is inside: the spacing is too large for this mesh");
-    return volume;
+    return Fill(unit_spacing, options_.shift);
   }
 
   // Repairs the topology, or warns about it.
@@ -181,9 +194,12 @@ class Voxelizer {
     return absl::OkStatus();
   }
 
-  absl::StatusOr<Volume> Fill(double unit_spacing, GridShift shift) const {
+  absl::StatusOr<Sampling> Fill(double unit_spacing, GridShift shift) const {
+    Sampling sampling;
     BCCSKEL_ASSIGN_OR_RETURN(const GridFit fit, FitGrid(surface_, unit_spacing, shift));
-    return fill_->Fill(fit, context_);
+    sampling.request = fill_->RequestOn(fit);
+    BCCSKEL_ASSIGN_OR_RETURN(sampling.volume, fill_->Fill(sampling.request, context_));
+    return sampling;
   }
 
   // Spacing that gives about this many points in the box.
@@ -204,10 +220,10 @@ class Voxelizer {
     if (surface_.report.closure != SurfaceClosure::kOriented || !(share > 0)) return coarse;
     const double spacing = std::cbrt(2 * surface_.unit_volume / static_cast<double>(target));
     if (share >= kLargeShare) return spacing;
-    BCCSKEL_ASSIGN_OR_RETURN(const Volume volume, Fill(coarse, GridShift::kCentered));
+    BCCSKEL_ASSIGN_OR_RETURN(const Sampling tried, Fill(coarse, GridShift::kCentered));
     const double expected = kCoarseBoxPoints * share;
-    const bool plausible =
-        expected >= 1 && static_cast<double>(volume.PointCount()) <= 8 * std::max(expected, 4.0);
+    const bool plausible = expected >= 1 && static_cast<double>(tried.volume.PointCount()) <=
+                                                8 * std::max(expected, 4.0);
     return plausible ? spacing : coarse;
   }
 
@@ -223,25 +239,25 @@ class Voxelizer {
   // Points = 2 * volume / spacing^3, so each count gives a better spacing. The count jumps where
   // flat walls cross whole layers of points; the second half of the tries moves the grid off the
   // middle, where opposite walls jump at different spacings.
-  absl::StatusOr<Volume> FillToCount(uint64_t target) {
+  absl::StatusOr<Sampling> FillToCount(uint64_t target) {
     constexpr int kTries = 16;
     constexpr int kFruitlessTries = 7;  // a surface folded onto itself encloses no point, ever
     constexpr double kTolerance = 0.02;
     BCCSKEL_ASSIGN_OR_RETURN(const double first, FirstSpacing(target));
     const double least = LeastSpacing(target);
     SpacingSearch search(first);
-    Volume best;
+    Sampling best;
     double best_ratio = 0;
     for (int n = 0; n < kTries; ++n) {
       if (n == kTries / 2) search = SpacingSearch(search.spacing());
       const GridShift shift = n < kTries / 2 ? GridShift::kCentered : GridShift::kOffCenter;
-      if (n == kFruitlessTries && best.empty()) break;
+      if (n == kFruitlessTries && best.volume.empty()) break;
       if (search.spacing() < least) break;
-      BCCSKEL_ASSIGN_OR_RETURN(Volume volume, Fill(search.spacing(), shift));
-      const uint64_t count = volume.PointCount();
+      BCCSKEL_ASSIGN_OR_RETURN(Sampling tried, Fill(search.spacing(), shift));
+      const uint64_t count = tried.volume.PointCount();
       const double ratio = static_cast<double>(count) / static_cast<double>(target);
       if (Distance(ratio) < Distance(best_ratio)) {
-        best = std::move(volume);
+        best = std::move(tried);
         best_ratio = ratio;
       }
       if (std::abs(best_ratio - 1) <= kTolerance) return best;
@@ -253,13 +269,13 @@ class Voxelizer {
   // How far a count is from the target, as a factor of 1 or more.
   static double Distance(double ratio) { return ratio < 1 ? 1 / ratio : ratio; }
 
-  absl::StatusOr<Volume> BestOfTries(Volume best, uint64_t target) {
-    if (best.empty()) {
+  absl::StatusOr<Sampling> BestOfTries(Sampling best, uint64_t target) {
+    if (best.volume.empty()) {
       return absl::InvalidArgumentError(
           "nothing enclosed: no lattice point is inside the mesh at any spacing tried");
     }
     warnings_.push_back(
-        absl::StrFormat("%d points instead of the %d wanted", best.PointCount(), target));
+        absl::StrFormat("%d points instead of the %d wanted", best.volume.PointCount(), target));
     return best;
   }
 

@@ -13,6 +13,7 @@
 #include "core/import/mesh/triangle_mesh.h"
 #include "core/import/voxelize/fill_rule.h"
 #include "core/import/voxelize/grid_fit.h"
+#include "core/import/voxelize/thin_parts.h"
 #include "core/volume/volume.h"
 
 namespace bccskel {
@@ -24,12 +25,15 @@ enum class TopologyCheck { kCompare, kSkip };
 
 struct VoxelizeOptions {
   // Exactly one of these two. The number of points is met within 2 % where the solid has enough of
-  // them; the spacing is the edge of the cubic cell in the mesh's unit of length.
+  // them, not counting those that keep thin parts; the spacing is the edge of the cubic cell in the
+  // mesh's unit of length.
   std::optional<uint64_t> points = {};
   std::optional<double> spacing = {};
   // Of a spacing. A number of points takes a centered grid, unless only one off the center has it.
   GridShift shift = GridShift::kCentered;
   FillRule fill = FillRule::kAuto;
+  // Not with kParity, which does not say on which side of the surface the solid is.
+  ThinParts thin_parts = ThinParts::kKeep;
   TopologyCheck topology = TopologyCheck::kCompare;
   uint64_t max_points = uint64_t{1} << 33;
 };
@@ -37,6 +41,7 @@ struct VoxelizeOptions {
 struct VoxelizeResult {
   Volume volume;
   MeshReport mesh;
+  uint64_t added_points = 0;             // to keep thin parts
   std::vector<std::string> warnings;     // sentences for a person
   FillRule fill = FillRule::kParity;     // the rule used, never kAuto
   std::optional<BettiNumbers> topology;  // of the volume, with TopologyCheck::kCompare

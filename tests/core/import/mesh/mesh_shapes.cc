@@ -138,6 +138,32 @@ TriangleMesh TrefoilTube(double tube_radius, int around, int across) {
   });
 }
 
+TriangleMesh Blade(double height) {
+  TriangleMesh mesh;
+  for (const double z : {-2.0, 2.0}) {
+    mesh.vertices.insert(mesh.vertices.end(), {{-1, 0, z}, {1, 0, z}, {0, height, z}});
+  }
+  mesh.triangles = {{0, 2, 1}, {3, 4, 5}, {0, 1, 4}, {0, 4, 3},
+                    {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}};
+  return mesh;
+}
+
+TriangleMesh Turned(TriangleMesh mesh, std::mt19937& random) {
+  std::normal_distribution<double> normal;
+  std::array<double, 4> q;
+  for (double& part : q) part = normal(random);
+  const double size = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
+  for (double& part : q) part /= size;
+  const auto [w, x, y, z] = q;
+  for (auto& v : mesh.vertices) {
+    const auto [a, b, c] = v;
+    v = {(1 - 2 * (y * y + z * z)) * a + 2 * (x * y - w * z) * b + 2 * (x * z + w * y) * c,
+         2 * (x * y + w * z) * a + (1 - 2 * (x * x + z * z)) * b + 2 * (y * z - w * x) * c,
+         2 * (x * z - w * y) * a + 2 * (y * z + w * x) * b + (1 - 2 * (x * x + y * y)) * c};
+  }
+  return mesh;
+}
+
 TriangleMesh Flipped(TriangleMesh mesh) {
   for (TriangleMesh::Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
   return mesh;

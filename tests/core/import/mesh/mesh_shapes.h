@@ -2,6 +2,7 @@
 #define BCCSKEL_TESTS_CORE_IMPORT_MESH_MESH_SHAPES_H_
 
 #include <array>
+#include <random>
 #include <string>
 
 #include "core/import/mesh/triangle_mesh.h"
@@ -18,6 +19,11 @@ TriangleMesh Torus(double ring_radius, double tube_radius, int around = 48, int 
 // A tube around the trefoil knot: genus 1.
 TriangleMesh TrefoilTube(double tube_radius, int around = 240, int across = 12);
 
+// A prism of length 4 over a triangle of width 2 and this height: its two long edges are sharp.
+TriangleMesh Blade(double height);
+
+// Turned about the origin at random.
+TriangleMesh Turned(TriangleMesh mesh, std::mt19937& random);
 TriangleMesh Flipped(TriangleMesh mesh);
 TriangleMesh Merged(const TriangleMesh& a, const TriangleMesh& b);
 // Every coordinate times `scale`, plus the offset.

@@ -4,8 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <array>
-#include <cmath>
 #include <random>
 
 #include "tests/core/import/mesh/mesh_shapes.h"
@@ -14,36 +12,11 @@
 namespace bccskel {
 namespace {
 
+using testing::Blade;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-
-// A prism of length 4 over a triangle of width 2 and this height: its two long edges are sharp.
-TriangleMesh Blade(double height) {
-  TriangleMesh mesh;
-  for (const double z : {-2.0, 2.0}) {
-    mesh.vertices.insert(mesh.vertices.end(), {{-1, 0, z}, {1, 0, z}, {0, height, z}});
-  }
-  mesh.triangles = {{0, 2, 1}, {3, 4, 5}, {0, 1, 4}, {0, 4, 3},
-                    {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}};
-  return mesh;
-}
-
-TriangleMesh Turned(TriangleMesh mesh, std::mt19937& random) {
-  std::normal_distribution<double> normal;
-  std::array<double, 4> q;
-  for (double& part : q) part = normal(random);
-  const double size = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
-  for (double& part : q) part /= size;
-  const auto [w, x, y, z] = q;
-  for (auto& v : mesh.vertices) {
-    const auto [a, b, c] = v;
-    v = {(1 - 2 * (y * y + z * z)) * a + 2 * (x * y - w * z) * b + 2 * (x * z + w * y) * c,
-         2 * (x * y + w * z) * a + (1 - 2 * (x * x + z * z)) * b + 2 * (y * z - w * x) * c,
-         2 * (x * z - w * y) * a + 2 * (y * z + w * x) * b + (1 - 2 * (x * x + y * y)) * c};
-  }
-  return mesh;
-}
+using testing::Turned;
 
 uint64_t PointsApart(const Volume& a, const Volume& b) {
   uint64_t apart = 0;
@@ -52,14 +25,18 @@ uint64_t PointsApart(const Volume& a, const Volume& b) {
   return apart;
 }
 
+VoxelizeResult Sampled(const TriangleMesh& mesh, TopologyCheck topology) {
+  return test::Voxelized(mesh,
+                         {.points = 20000, .thin_parts = ThinParts::kSample, .topology = topology});
+}
+
 TEST(TopologyRepair, BladesHaveTheTopologyOfTheirMeshInEveryPose) {
   std::mt19937 random(1);
   int different = 0;
   for (int n = 0; n < 24; ++n) {
     const TriangleMesh mesh = Turned(Blade(0.2 + 0.05 * (n % 4)), random);
-    const VoxelizeResult plain =
-        test::Voxelized(mesh, {.points = 20000, .topology = TopologyCheck::kSkip});
-    const VoxelizeResult result = test::Voxelized(mesh, {.points = 20000});
+    const VoxelizeResult plain = Sampled(mesh, TopologyCheck::kSkip);
+    const VoxelizeResult result = Sampled(mesh, TopologyCheck::kCompare);
     EXPECT_THAT(result.warnings, IsEmpty());
     EXPECT_EQ(result.topology, (BettiNumbers{1, 0, 0}));
     EXPECT_EQ(CountBettiNumbers(result.volume, {}).value(), (BettiNumbers{1, 0, 0}));
@@ -80,9 +57,8 @@ TEST(TopologyRepair, BladesThatCrossHaveNoLoopsInAnyPose) {
     TriangleMesh mesh = blade;
     for (const auto& [x, y, z] : blade.vertices) mesh.vertices.push_back({y, z, x});
     for (auto [a, b, c] : blade.triangles) mesh.triangles.push_back({a + 6, b + 6, c + 6});
-    const VoxelizeResult plain =
-        test::Voxelized(mesh, {.points = 20000, .topology = TopologyCheck::kSkip});
-    const VoxelizeResult result = test::Voxelized(mesh, {.points = 20000});
+    const VoxelizeResult plain = Sampled(mesh, TopologyCheck::kSkip);
+    const VoxelizeResult result = Sampled(mesh, TopologyCheck::kCompare);
     EXPECT_THAT(result.warnings, Contains(HasSubstr("but the mesh has 2 components, 0 loops")));
     EXPECT_EQ(result.topology, (BettiNumbers{1, 0, 0}));
     different += PointsApart(plain.volume, result.volume) > 0;
@@ -141,7 +117,8 @@ TEST(TopologyRepair, LeavesASamplingThatHasNothingTooMuch) {
 TEST(TopologyRepair, AWallThinnerThanCellsIsNamedWithItsRemedy) {
   std::mt19937 random(1);
   const TriangleMesh mesh = Turned(testing::Box({0, 0, 0}, {1, 1, 0.02}), random);
-  const VoxelizeResult result = test::Voxelized(mesh, {.spacing = 0.05});
+  const VoxelizeResult result =
+      test::Voxelized(mesh, {.spacing = 0.05, .thin_parts = ThinParts::kSample});
   EXPECT_THAT(result.warnings, Contains(HasSubstr("cells 0.05 wide, so try --spacing 0.0")));
 }
 

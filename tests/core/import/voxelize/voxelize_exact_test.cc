@@ -35,8 +35,9 @@ TriangleMesh Tilted(TriangleMesh mesh, double angle = 0.7) {
 }
 
 void ExpectWhatRaysFind(const TriangleMesh& mesh, double spacing) {
-  const VoxelizeResult result =
-      Voxelized(mesh, {.spacing = spacing, .topology = TopologyCheck::kSkip});
+  const VoxelizeResult result = Voxelized(
+      mesh,
+      {.spacing = spacing, .thin_parts = ThinParts::kSample, .topology = TopologyCheck::kSkip});
   const Agreement agreement = Compare(result.volume, mesh, [&](const WorldPoint& p) {
     return test::CastSkewRay(mesh, p).winding != 0;
   });

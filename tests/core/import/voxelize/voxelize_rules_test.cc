@@ -164,7 +164,8 @@ TEST(FillRule, AGapOfATJunctionIsOpenAndAFlatTriangleInItCloses) {
 // The value at a point is compared with the sum of all solid angles. Only where it is within the
 // error of far caps of 1/2 may a point go either way.
 void ExpectGeneralizedWinding(const TriangleMesh& mesh, double spacing) {
-  const VoxelizeResult result = WithSpacing(mesh, spacing, FillRule::kWinding);
+  const VoxelizeResult result = test::Voxelized(
+      mesh, {.spacing = spacing, .fill = FillRule::kWinding, .thin_parts = ThinParts::kSample});
   uint64_t close = 0;
   const test::Agreement agreement = test::Compare(result.volume, mesh, [&](const WorldPoint& p) {
     const double winding = std::abs(test::SolidAngleWinding(mesh, p));
