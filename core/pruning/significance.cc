@@ -6,8 +6,6 @@
 #include <limits>
 #include <utility>
 
-#include "core/distance/points_along.h"
-
 namespace bccskel {
 namespace {
 
@@ -20,28 +18,9 @@ constexpr double kLeastFine = 0.35;     // below, the width is looked at in few 
 constexpr size_t kRoots = 7;            // of the places, the first: there the limb may begin
 constexpr size_t kNearTip = 9;          // of the places
 constexpr double kLongestRay = 400;
-constexpr double kRoundness = 1.5;  // half-width by radius: a plate is wider in one of eight lines
-constexpr double kRoundMargin = 1;
-constexpr double kWallFlatness = 2.5;  // half-width by radius: less is round
-constexpr double kWallMargin = 3;      // so are limbs as thick as the steps of the surface
-constexpr double kMostThick = 3;  // of a wall to either side, in radii: beyond, another wall begins
-constexpr double kLeastOn = 0.25;    // a line goes on in a wall by this at least, in radii
 constexpr double kBulge = 1.2;       // its radius at the end, in radii where its branch begins
 constexpr double kInJunction = 0.9;  // of the ball there
 constexpr size_t kCoverSamples = 16;
-
-// Half a turn in eight steps: cosine and sine.
-constexpr std::array<std::array<double, 2>, 8> kTurns = {{{1, 0},
-                                                          {0.92387953, 0.38268343},
-                                                          {0.70710678, 0.70710678},
-                                                          {0.38268343, 0.92387953},
-                                                          {0, 1},
-                                                          {-0.38268343, 0.92387953},
-                                                          {-0.70710678, 0.70710678},
-                                                          {-0.92387953, 0.38268343}}};
-
-// Tangents of smaller turns to either side of the widest of these.
-constexpr double kFirstTurn = 0.2, kLeastTurn = 0.01;
 
 BranchPath PathOf(const ThinSet& set, const FreeBranch& branch) {
   BranchPath path{{*branch.junction}, {}};
@@ -80,7 +59,7 @@ Significance::Significance(const Volume& object, const SurfaceNoise& noise,
                            const std::optional<LatticeBox>& border)
     : noise_(noise),
       scale_(AxisScaleOf(object.placement())),
-      bricks_(object),
+      sections_(object),
       extender_(std::move(extender)),
       firm_depth_(std::move(firm_depth)),
       border_(border) {}
@@ -134,26 +113,42 @@ const Significance::Verdict* Significance::Known(const FreeBranch& branch) const
 }
 
 // The largest run may begin in something wide and reach the limb late, so the run of its later half
-// is evaluated, too, then that of the later half of this one, and so on.
+// is evaluated, too, then that of the later half of this one, and so on. It may also lie in a bump
+// at the end of a thick limb, such as an ear of a head, so the largest run before it is evaluated,
+// and so on.
 Significance::Verdict Significance::Look(const ThinSet& set, const FreeBranch& branch) {
   BranchPath path = PathOf(set, branch);
   Verdict best{*branch.junction, branch.points.size(), RunOf(set, path)};
-  best.value = best.run.ratio;
-  if (best.run.ratio < kLeastRatio) return best;
-  best.value = ValueOf(set, path, best.run);
-  size_t first = PlaceIn(best.run, kPlaces / 2);
+  const Run largest = best.run;
+  best.value = largest.ratio;
+  if (largest.ratio < kLeastRatio) return best;
+  best.value = ValueOf(set, path, largest);
+  size_t first = PlaceIn(largest, kPlaces / 2);
   while (first + kPlaces <= path.points.size()) {
     const Run run = LargestRun(set, path, noise_, first);
     if (run.ratio < kLeastRatio) break;
-    if (ValueAtMost(set, path, run) > best.value) {
-      const double value = ValueOf(set, path, run);
-      if (value > best.value) best.run = run, best.value = value;
-    }
+    Consider(set, path, run, best);
     const size_t later = PlaceIn(run, kPlaces / 2);
     if (later == first) break;
     first = later;
   }
+  size_t last = largest.from;
+  while (last + 1 >= kPlaces) {
+    path.points.resize(last + 1);
+    path.radii.resize(last + 1);
+    const Run run = LargestRun(set, path, noise_);
+    if (run.ratio < kLeastRatio) break;
+    Consider(set, path, run, best);
+    last = run.from;
+  }
   return best;
+}
+
+void Significance::Consider(const ThinSet& set, const BranchPath& path, const Run& run,
+                            Verdict& best) {
+  if (ValueAtMost(set, path, run) <= best.value) return;
+  const double value = ValueOf(set, path, run);
+  if (value > best.value) best.run = run, best.value = value;
 }
 
 // Shape and noise are independent, so their squares add. The margin is for the thinnest limbs, for
@@ -188,14 +183,7 @@ double Significance::ValueOf(const ThinSet& set, const BranchPath& path, const R
   Sections sections = SectionsAcross(path, run, reach);
   double value = BestRoot(set, path, run, sections);
   if (value >= kLeastFine) {
-    for (Section& section : sections) {
-      section.inscribed = section.radius;
-      if (section.half_width <= kRoundness * section.radius + kRoundMargin) continue;
-      TurnFinely(reach, section);
-      if (section.half_width < kWallFlatness * section.radius + kWallMargin) continue;
-      FollowWall(reach, section);
-      FindInscribed(section);
-    }
+    for (CrossSection& section : sections) sections_.Refine(reach, section);
     value = BestRoot(set, path, run, sections);
   }
   return value;
@@ -238,7 +226,7 @@ double Significance::BestRoot(const ThinSet& set, const BranchPath& path, const 
                               const Sections& sections) const {
   // By how much the object is wider than the radius.
   std::array<double, kPlaces> wider;
-  std::ranges::transform(sections, wider.begin(), [](const Section& section) {
+  std::ranges::transform(sections, wider.begin(), [](const CrossSection& section) {
     return std::max(section.half_width - section.radius, 0.0);
   });
   const double half_width_near_tip = wider[kNearTip] + sections[kNearTip].radius;
@@ -246,11 +234,11 @@ double Significance::BestRoot(const ThinSet& set, const BranchPath& path, const 
   double value = -std::numeric_limits<double>::infinity();
   for (size_t place = 0; place < kRoots; ++place) {
     const LatticePoint root = path.points[PlaceIn(run, place)];
-    const Section& from = sections[place];
+    const CrossSection& from = sections[place];
     const double wide = MedianFrom(wider, std::max(place, first_own));
     const double width = from.radius + kWidthShare * wide;
     for (size_t tip = place + 1; tip < kPlaces; ++tip) {
-      const Section& to = sections[tip];
+      const CrossSection& to = sections[tip];
       const double narrower = from.inscribed == 0
                                   ? from.radius + wide - half_width_near_tip
                                   : kWallSteepness * (from.inscribed - to.inscribed);
@@ -282,118 +270,10 @@ Significance::Sections Significance::SectionsAcross(const BranchPath& path, cons
   Sections sections;
   for (size_t place = 0; place < kPlaces; ++place) {
     const size_t n = PlaceIn(run, place);
-    Section& section = sections[place];
-    section = {PlaceOf(path.points[n], scale_), DirectionAt(path.points, n, scale_), path.radii[n]};
-    const auto [u, v] = Across(section.way);
-    section.side = u;
-    for (const auto& [cosine, sine] : kTurns) {
-      Widen(Sum(Sum({0, 0, 0}, cosine, u), sine, v), reach, section);
-    }
+    sections[place] = sections_.Across(PlaceOf(path.points[n], scale_),
+                                       DirectionAt(path.points, n, scale_), path.radii[n], reach);
   }
   return sections;
-}
-
-// Lines that do not lie in a thin plate soon leave it.
-void Significance::TurnFinely(double reach, Section& section) {
-  for (double turn = kFirstTurn; turn > kLeastTurn; turn /= 2) {
-    const Coordinates from = section.side, across = Cross(section.way, from);
-    if (Widen(Unit(Sum(from, turn, across)), reach, section)) continue;
-    Widen(Unit(Sum(from, -turn, across)), reach, section);
-  }
-}
-
-// Uses the mean of the line's two sides, since at a limb's end there is only one. Returns whether
-// this line is the widest so far.
-bool Significance::Widen(const Coordinates& side, double reach, Section& section) {
-  const double start = std::floor(section.radius);
-  const double there = WayOut(section.middle, side, start, reach);
-  const double back = WayOut(section.middle, Sum({0, 0, 0}, -1, side), start, reach);
-  const double half_width = (there + back) / 2;
-  if (half_width <= section.half_width) return false;
-  section.side = side;
-  section.half_width = half_width;
-  return true;
-}
-
-// Follows a bent wall, which a straight line soon leaves, to both sides of the widest line.
-void Significance::FollowWall(double reach, Section& section) {
-  const double there = WayInWall(FrontOf(section, section.side), section.radius, reach);
-  const Front other = FrontOf(section, Sum({0, 0, 0}, -1, section.side));
-  const double back = WayInWall(other, section.radius, reach);
-  section.half_width = std::max(section.half_width, (there + back) / 2);
-}
-
-// Uses the third shortest of 16 lines: noise, or a bend met at a slant, may end a line early.
-void Significance::FindInscribed(Section& section) {
-  std::array<double, 3> least;
-  least.fill(section.half_width);
-  for (const auto& [cosine, sine] : kTurns) {
-    const Coordinates way = Sum(Sum({0, 0, 0}, cosine, section.side), sine, section.way);
-    for (const double side : {1.0, -1.0}) {
-      const Front front = FrontOf(section, Sum({0, 0, 0}, side, way));
-      least.back() = std::min(least.back(), WayInWall(front, section.radius, least.back()));
-      std::ranges::sort(least);
-    }
-  }
-  section.inscribed = std::max(least.back(), section.radius);
-}
-
-Significance::Front Significance::FrontOf(const Section& section, const Coordinates& way) {
-  return {section.middle, way, Cross(section.way, section.side)};
-}
-
-double Significance::WayInWall(Front front, double radius, double reach) {
-  double out = WayOut(front.middle, front.way, std::floor(radius), reach);
-  while (front.length + out < reach && GoOnInWall(front, out, radius)) {
-    out = WayOut(front.middle, front.way, 0, reach - front.length);
-  }
-  return std::min(front.length + out, reach);
-}
-
-// Where the line leaves its wall, continues in a wall that meets it there, or else from the middle
-// of its own wall. Returns false at a rim and where there is no wall.
-bool Significance::GoOnInWall(Front& front, double out, double radius) {
-  if (out < kLeastOn * radius + 1) return false;
-  const double back = std::min(out, radius);
-  const double most = kMostThick * radius + 1;
-  const Coordinates below = Sum({0, 0, 0}, -1, front.normal);
-  const auto ways = [&](const Coordinates& at) {
-    return std::array{WayOut(at, front.normal, 0, most), WayOut(at, below, 0, most)};
-  };
-  const Coordinates corner = Sum(front.middle, out - back, front.way);
-  const auto [wall_above, wall_below] = ways(corner);
-  if (std::max(wall_above, wall_below) >= most) {
-    const Coordinates way = wall_above > wall_below ? front.normal : below;
-    front = {Sum(corner, radius, way), way, front.way, front.length + out - back + radius};
-    return true;
-  }
-  const Coordinates at = Sum(front.middle, out, front.way);
-  const auto [thick_above, thick_below] = ways(at);
-  const Coordinates middle = Sum(at, (thick_above - thick_below) / 2, front.normal);
-  const Coordinates step = Sum(middle, -1, front.middle), way = Unit(step);
-  const Coordinates normal = Unit(Sum(front.normal, -Dot(front.normal, way), way));
-  front = {middle, way, normal, front.length + std::sqrt(Dot(step, step))};
-  return true;
-}
-
-// How far the object extends, up to `reach`, in whole lattice units. Skips single missing points,
-// which are noise. Needs: it extends to `start`, a whole number.
-double Significance::WayOut(const Coordinates& from, const Coordinates& way, double start,
-                            double reach) {
-  double out = start;
-  PointsAlong ahead;
-  size_t passed = PointsAlong::kCount;  // of those ahead
-  while (out < reach) {
-    if (passed + 2 > PointsAlong::kCount) {
-      ahead = FindPointsAlong(from, way, out + 1, 1, scale_);
-      passed = 0;
-    }
-    const size_t steps = bricks_.Contains(ahead[passed]) ? 1 : 2;
-    if (steps == 2 && !bricks_.Contains(ahead[passed + 1])) break;
-    passed += steps;
-    out += static_cast<double>(steps);
-  }
-  return out;
 }
 
 }  // namespace bccskel

@@ -11,6 +11,7 @@
 #include "core/exec/context.h"
 #include "core/pruning/ball_index.h"
 #include "core/pruning/branch_walk.h"
+#include "core/pruning/cross_section.h"
 #include "core/pruning/firm_depth.h"
 #include "core/pruning/largest_run.h"
 #include "core/pruning/point_table.h"
@@ -31,10 +32,11 @@ namespace bccskel {
 //        balls of other branches. H is the half-width of the object across the branch. In walls,
 //        lines across the branch follow the wall, and the fall of the inscribed circle's radius may
 //        replace that of D. The best run of the later half of a run is evaluated in the same way,
-//        and so on; the largest result counts.
+//        and so on, and so is the best run before it; the largest result counts.
 // The significance is a ratio of lengths of the shape. Only the noise depends on the sampling, so
 // it is the same at any resolution and in any pose.
-// Cost:  48 points of the branch for each of one to five runs. For a run that may be the best, 176
+// Cost:  48 points of the branch for each of one to several runs. For a run that may be the best,
+// 176
 //        rays if it sticks out at all, up to 396 if the branch may stay and is not round, and in a
 //        wall up to 198 more that follow it.
 // Threads: one thread per instance; LookAhead() uses the context's.
@@ -75,24 +77,11 @@ class Significance {
     double value = 0;  // without the factor `uncovered`
   };
 
-  // A cross-section of the object at one position of the run.
-  struct Section {
-    Coordinates middle, way;  // `way`: direction of the branch, of length 1
-    double radius = 0;
-    Coordinates side = {0, 0, 0};  // direction of the widest line, of length 1
-    double half_width = 0;         // the mean of the two sides of that line
-    double inscribed = 0;          // radius of the circle inscribed in a wall; 0: not known yet
-  };
-  // The state of a line that follows a bent wall.
-  struct Front {
-    Coordinates middle;  // of the wall
-    Coordinates way;     // of length 1
-    Coordinates normal;  // of the wall, of length 1
-    double length = 0;   // so far
-  };
-  using Sections = std::array<Section, kPlaces>;
+  using Sections = std::array<CrossSection, kPlaces>;
 
   Verdict Look(const ThinSet& set, const FreeBranch& branch);
+  // Replaces the best run by this one if its value is larger.
+  void Consider(const ThinSet& set, const BranchPath& path, const Run& run, Verdict& best);
   // Null if the end has no cached result or its branch has changed.
   const Verdict* Known(const FreeBranch& branch) const;
   Run RunOf(const ThinSet& set, BranchPath& path);
@@ -104,20 +93,12 @@ class Significance {
   double ValueAtMost(const ThinSet& set, const BranchPath& path, const Run& run) const;
   double UncoveredShare(const ThinSet& set, const FreeBranch& branch, const Run& run);
   Sections SectionsAcross(const BranchPath& path, const Run& run, double reach);
-  void TurnFinely(double reach, Section& section);
-  bool Widen(const Coordinates& side, double reach, Section& section);
-  void FollowWall(double reach, Section& section);
-  void FindInscribed(Section& section);
-  static Front FrontOf(const Section& section, const Coordinates& way);
-  double WayInWall(Front front, double radius, double reach);
-  bool GoOnInWall(Front& front, double out, double radius);
   double BestRoot(const ThinSet& set, const BranchPath& path, const Run& run,
                   const Sections& sections) const;
-  double WayOut(const Coordinates& from, const Coordinates& way, double start, double reach);
 
   const SurfaceNoise noise_;
   const AxisScale scale_;
-  NearbyBricks bricks_;
+  CrossSections sections_;
   std::optional<TipExtender> extender_;
   std::optional<FirmDepth> firm_depth_;
   const std::optional<LatticeBox> border_;

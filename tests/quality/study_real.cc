@@ -114,7 +114,8 @@ absl::Status ForEachRealMask(const StudyOptions& options, Study study) {
 // The skeleton of a mesh in the world before the turn.
 struct Pose {
   int ends = 0;
-  std::vector<Vector> places = {};
+  std::vector<Vector> places = {};  // of the skeleton's points
+  std::vector<Vector> smooth = {};  // the same on the smooth curves, as .swc files have them
   std::vector<double> radii = {};
 };
 
@@ -124,30 +125,48 @@ absl::StatusOr<Pose> PoseOf(TriangleMesh mesh, uint64_t points, const Frame& fra
     const Vector turned = frame.Turn({v[0], v[1], v[2]});
     v = {turned.x, turned.y, turned.z};
   }
-  BCCSKEL_ASSIGN_OR_RETURN(
-      const VoxelizeResult solid,
-      Voxelize(mesh, {.points = points, .topology = TopologyCheck::kSkip}, exec::Context()));
+  BCCSKEL_ASSIGN_OR_RETURN(const VoxelizeResult solid,
+                           Voxelize(mesh, {.points = points}, exec::Context()));
   BCCSKEL_ASSIGN_OR_RETURN(const SkeletonizeResult result,
                            Skeletonize(solid.volume, options, exec::Context()));
   const SkeletonGraph& graph = result.graph;
   Pose pose = {.ends = CountNodes(graph, NodeKind::kEnd)};
+  const auto in_frame = [&](const WorldPoint& at) { return frame.TurnBack({at[0], at[1], at[2]}); };
   for (const SkeletonPoint& p : graph.points) {
-    const WorldPoint at = graph.ShiftedPositionOf(p);
-    pose.places.push_back(frame.TurnBack({at[0], at[1], at[2]}));
+    pose.places.push_back(in_frame(graph.ShiftedPositionOf(p)));
     pose.radii.push_back(graph.RadiusOf(p));
+  }
+  for (const SkeletonEdge& edge : graph.edges) {
+    for (const WorldPoint& at : SmoothCurve(graph, edge)) pose.smooth.push_back(in_frame(at));
   }
   return pose;
 }
 
+using Places = std::vector<Vector> Pose::*;
+
 // From each place of one to the nearest of the other, over the radius there.
-void AddDistances(const Pose& from, const Pose& to, std::vector<double>& distances) {
-  for (size_t n = 0; n < from.places.size(); ++n) {
+void AddDistances(const Pose& from, const Pose& to, Places places, std::vector<double>& distances) {
+  for (size_t n = 0; n < (from.*places).size(); ++n) {
     double nearest = std::numeric_limits<double>::infinity();
-    for (const Vector& q : to.places) {
-      nearest = std::min(nearest, Dot(from.places[n] - q, from.places[n] - q));
+    for (const Vector& q : to.*places) {
+      const Vector way = (from.*places)[n] - q;
+      nearest = std::min(nearest, Dot(way, way));
     }
     distances.push_back(std::sqrt(nearest) / from.radii[n]);
   }
+}
+
+// In both ways, sorted.
+std::vector<double> DistancesBetween(const Pose& a, const Pose& b, Places places) {
+  std::vector<double> distances;
+  AddDistances(a, b, places, distances);
+  AddDistances(b, a, places, distances);
+  std::ranges::sort(distances);
+  return distances;
+}
+
+double Percentile95(const std::vector<double>& sorted) {
+  return sorted.empty() ? 0 : sorted[sorted.size() * 95 / 100];
 }
 
 absl::Status StudyClosedMesh(const std::string& path, const StudyOptions& options) {
@@ -159,7 +178,7 @@ absl::Status StudyClosedMesh(const std::string& path, const StudyOptions& option
     sizes.push_back(pose.ends);
   }
   Pose first;
-  double p95 = 0, largest = 0;
+  double p95 = 0, smooth = 0, largest = 0;
   for (int turn = 0; turn < options.turns; ++turn) {
     BCCSKEL_ASSIGN_OR_RETURN(
         Pose pose, PoseOf(mesh, options.points.front(), RandomFrame(static_cast<uint64_t>(turn)),
@@ -169,22 +188,20 @@ absl::Status StudyClosedMesh(const std::string& path, const StudyOptions& option
       first = std::move(pose);
       continue;
     }
-    std::vector<double> distances;
-    AddDistances(first, pose, distances);
-    AddDistances(pose, first, distances);
-    std::ranges::sort(distances);
-    if (distances.empty()) continue;
-    p95 = std::max(p95, distances[distances.size() * 95 / 100]);
-    largest = std::max(largest, distances.back());
+    const std::vector<double> distances = DistancesBetween(first, pose, &Pose::places);
+    p95 = std::max(p95, Percentile95(distances));
+    if (!distances.empty()) largest = std::max(largest, distances.back());
+    smooth = std::max(smooth, Percentile95(DistancesBetween(first, pose, &Pose::smooth)));
   }
   const std::string by_size = absl::StrJoin(sizes, ", "), by_pose = absl::StrJoin(poses, ", ");
   if (options.json) {
     absl::PrintF(
         "{\"study\": \"closed meshes\", \"mesh\": \"%s\", \"points\": [%s], \"ends\": [%s], "
-        "\"pose_ends\": [%s], \"p95\": %.4f, \"largest\": %.3f}\n",
-        name, absl::StrJoin(options.points, ", "), by_size, by_pose, p95, largest);
+        "\"pose_ends\": [%s], \"p95\": %.4f, \"smooth_p95\": %.4f, \"largest\": %.3f}\n",
+        name, absl::StrJoin(options.points, ", "), by_size, by_pose, p95, smooth, largest);
   } else {
-    absl::PrintF("%-24s %-20s %-28s %6.2f %8.2f\n", name, by_size, by_pose, p95, largest);
+    absl::PrintF("%-24s %-20s %-28s %6.2f %6.2f %8.2f\n", name, by_size, by_pose, p95, smooth,
+                 largest);
   }
   std::fflush(stdout);
   return absl::OkStatus();
@@ -206,8 +223,8 @@ absl::Status PrintRealVoxels(const StudyOptions& options) {
 
 absl::Status StudyClosedMeshes(const StudyOptions& options) {
   if (!options.json) {
-    absl::PrintF("%-24s %-20s %-28s %6s %8s\n", "mesh", "ends by size", "ends by pose", "p95",
-                 "largest");
+    absl::PrintF("%-24s %-20s %-28s %6s %6s %8s\n", "mesh", "ends by size", "ends by pose", "p95",
+                 "smooth", "largest");
   }
   std::error_code error;
   std::vector<std::string> paths;

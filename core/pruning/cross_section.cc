@@ -1,0 +1,156 @@
+#include "core/pruning/cross_section.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/distance/points_along.h"
+
+namespace bccskel {
+namespace {
+
+constexpr double kRoundness = 1.5;  // half-width by radius: a plate is wider in one of eight lines
+constexpr double kRoundMargin = 1;
+constexpr double kWallFlatness = 2.5;  // half-width by radius: less is round
+constexpr double kWallMargin = 3;      // so are limbs as thick as the steps of the surface
+constexpr double kMostThick = 3;  // of a wall to either side, in radii: beyond, another wall begins
+constexpr double kLeastOn = 0.25;  // a line goes on in a wall by this at least, in radii
+
+// Half a turn in eight steps: cosine and sine.
+constexpr std::array<std::array<double, 2>, 8> kTurns = {{{1, 0},
+                                                          {0.92387953, 0.38268343},
+                                                          {0.70710678, 0.70710678},
+                                                          {0.38268343, 0.92387953},
+                                                          {0, 1},
+                                                          {-0.38268343, 0.92387953},
+                                                          {-0.70710678, 0.70710678},
+                                                          {-0.92387953, 0.38268343}}};
+
+// Tangents of smaller turns to either side of the widest of these.
+constexpr double kFirstTurn = 0.2, kLeastTurn = 0.01;
+
+}  // namespace
+
+CrossSection CrossSections::Across(const Coordinates& middle, const Coordinates& way, double radius,
+                                   double reach) {
+  const auto [u, v] = ::bccskel::Across(way);
+  CrossSection section = {middle, way, radius, u};
+  for (const auto& [cosine, sine] : kTurns) {
+    Widen(Sum(Sum({0, 0, 0}, cosine, u), sine, v), reach, section);
+  }
+  return section;
+}
+
+void CrossSections::Refine(double reach, CrossSection& section) {
+  section.inscribed = section.radius;
+  if (section.half_width <= kRoundness * section.radius + kRoundMargin) return;
+  TurnFinely(reach, section);
+  if (section.half_width < kWallFlatness * section.radius + kWallMargin) return;
+  FollowWall(reach, section);
+  FindInscribed(section);
+}
+
+// Lines that do not lie in a thin plate soon leave it.
+void CrossSections::TurnFinely(double reach, CrossSection& section) {
+  for (double turn = kFirstTurn; turn > kLeastTurn; turn /= 2) {
+    const Coordinates from = section.side, across = Cross(section.way, from);
+    if (Widen(Unit(Sum(from, turn, across)), reach, section)) continue;
+    Widen(Unit(Sum(from, -turn, across)), reach, section);
+  }
+}
+
+// Uses the mean of the line's two sides, since at a limb's end there is only one. Returns whether
+// this line is the widest so far.
+bool CrossSections::Widen(const Coordinates& side, double reach, CrossSection& section) {
+  const double start = std::floor(section.radius);
+  const double there = WayOut(section.middle, side, start, reach);
+  const double back = WayOut(section.middle, Sum({0, 0, 0}, -1, side), start, reach);
+  const double half_width = (there + back) / 2;
+  if (half_width <= section.half_width) return false;
+  section.side = side;
+  section.half_width = half_width;
+  return true;
+}
+
+// Follows a bent wall, which a straight line soon leaves, to both sides of the widest line.
+void CrossSections::FollowWall(double reach, CrossSection& section) {
+  const double there = WayInWall(FrontOf(section, section.side), section.radius, reach);
+  const Front other = FrontOf(section, Sum({0, 0, 0}, -1, section.side));
+  const double back = WayInWall(other, section.radius, reach);
+  section.half_width = std::max(section.half_width, (there + back) / 2);
+}
+
+// Uses the third shortest of 16 lines: noise, or a bend met at a slant, may end a line early.
+void CrossSections::FindInscribed(CrossSection& section) {
+  std::array<double, 3> least;
+  least.fill(section.half_width);
+  for (const auto& [cosine, sine] : kTurns) {
+    const Coordinates way = Sum(Sum({0, 0, 0}, cosine, section.side), sine, section.way);
+    for (const double side : {1.0, -1.0}) {
+      const Front front = FrontOf(section, Sum({0, 0, 0}, side, way));
+      least.back() = std::min(least.back(), WayInWall(front, section.radius, least.back()));
+      std::ranges::sort(least);
+    }
+  }
+  section.inscribed = std::max(least.back(), section.radius);
+}
+
+CrossSections::Front CrossSections::FrontOf(const CrossSection& section, const Coordinates& way) {
+  return {section.middle, way, Cross(section.way, section.side)};
+}
+
+double CrossSections::WayInWall(Front front, double radius, double reach) {
+  double out = WayOut(front.middle, front.way, std::floor(radius), reach);
+  while (front.length + out < reach && GoOnInWall(front, out, radius)) {
+    out = WayOut(front.middle, front.way, 0, reach - front.length);
+  }
+  return std::min(front.length + out, reach);
+}
+
+// Where the line leaves its wall, continues in a wall that meets it there, or else from the middle
+// of its own wall. Returns false at a rim and where there is no wall.
+bool CrossSections::GoOnInWall(Front& front, double out, double radius) {
+  if (out < kLeastOn * radius + 1) return false;
+  const double back = std::min(out, radius);
+  const double most = kMostThick * radius + 1;
+  const Coordinates below = Sum({0, 0, 0}, -1, front.normal);
+  const auto ways = [&](const Coordinates& at) {
+    return std::array{WayOut(at, front.normal, 0, most), WayOut(at, below, 0, most)};
+  };
+  const Coordinates corner = Sum(front.middle, out - back, front.way);
+  const auto [wall_above, wall_below] = ways(corner);
+  if (std::max(wall_above, wall_below) >= most) {
+    const Coordinates way = wall_above > wall_below ? front.normal : below;
+    front = {Sum(corner, radius, way), way, front.way, front.length + out - back + radius};
+    return true;
+  }
+  const Coordinates at = Sum(front.middle, out, front.way);
+  const auto [thick_above, thick_below] = ways(at);
+  const Coordinates middle = Sum(at, (thick_above - thick_below) / 2, front.normal);
+  const Coordinates step = Sum(middle, -1, front.middle), way = Unit(step);
+  const Coordinates normal = Unit(Sum(front.normal, -Dot(front.normal, way), way));
+  front = {middle, way, normal, front.length + std::sqrt(Dot(step, step))};
+  return true;
+}
+
+// How far the object extends, up to `reach`, in whole lattice units. Skips single missing points,
+// which are noise. Needs: it extends to `start`, a whole number.
+double CrossSections::WayOut(const Coordinates& from, const Coordinates& way, double start,
+                             double reach) {
+  double out = start;
+  PointsAlong ahead;
+  size_t passed = PointsAlong::kCount;  // of those ahead
+  while (out < reach) {
+    if (passed + 2 > PointsAlong::kCount) {
+      ahead = FindPointsAlong(from, way, out + 1, 1, scale_);
+      passed = 0;
+    }
+    const size_t steps = bricks_.Contains(ahead[passed]) ? 1 : 2;
+    if (steps == 2 && !bricks_.Contains(ahead[passed + 1])) break;
+    passed += steps;
+    out += static_cast<double>(steps);
+  }
+  return out;
+}
+
+}  // namespace bccskel

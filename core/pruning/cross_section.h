@@ -1,0 +1,58 @@
+#ifndef BCCSKEL_CORE_PRUNING_CROSS_SECTION_H_
+#define BCCSKEL_CORE_PRUNING_CROSS_SECTION_H_
+
+#include "core/distance/places.h"
+#include "core/volume/volume.h"
+
+namespace bccskel {
+
+// A cross-section of the object at a point of a branch. All lengths are in lattice units.
+struct CrossSection {
+  Coordinates middle, way;  // `way`: direction of the branch, of length 1
+  double radius = 0;
+  Coordinates side = {0, 0, 0};  // direction of the widest line, of length 1
+  double half_width = 0;         // the mean of the two sides of that line
+  double inscribed = 0;          // radius of the circle inscribed in a wall; 0: not known yet
+};
+
+// Measures how wide the object is across a branch, by lines that end where they leave it.
+// Threads: one thread per instance.
+class CrossSections {
+ public:
+  // Needs: `object` outlives this.
+  explicit CrossSections(const Volume& object)
+      : scale_(AxisScaleOf(object.placement())), bricks_(object) {}
+
+  // The section with the widest of eight lines, each up to `reach` long to either side.
+  // Needs: `way` has length 1; `radius` is that of the object at `middle`.
+  CrossSection Across(const Coordinates& middle, const Coordinates& way, double radius,
+                      double reach);
+  // Refines a section that is wider than round, by up to ten more lines beside the widest. In
+  // walls, lines follow the wall, and the radius of the inscribed circle is measured.
+  void Refine(double reach, CrossSection& section);
+
+ private:
+  // The state of a line that follows a bent wall.
+  struct Front {
+    Coordinates middle;  // of the wall
+    Coordinates way;     // of length 1
+    Coordinates normal;  // of the wall, of length 1
+    double length = 0;   // so far
+  };
+
+  void TurnFinely(double reach, CrossSection& section);
+  bool Widen(const Coordinates& side, double reach, CrossSection& section);
+  void FollowWall(double reach, CrossSection& section);
+  void FindInscribed(CrossSection& section);
+  static Front FrontOf(const CrossSection& section, const Coordinates& way);
+  double WayInWall(Front front, double radius, double reach);
+  bool GoOnInWall(Front& front, double out, double radius);
+  double WayOut(const Coordinates& from, const Coordinates& way, double start, double reach);
+
+  const AxisScale scale_;
+  NearbyBricks bricks_;
+};
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_PRUNING_CROSS_SECTION_H_
