@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "absl/status/status.h"
 #include "core/import/voxelize/row_fill.h"
 
 namespace bccskel {
@@ -76,6 +77,9 @@ struct CrossingWork {
   double crossings = 0;
 };
 CrossingWork EstimateWork(const FillRequest& request, size_t triangle);
+// Whether the rows of the request are few enough, with `others` further crossings.
+// Errors: RESOURCE_EXHAUSTED.
+absl::Status CheckCrossingWork(const FillRequest& request, double others);
 
 }  // namespace bccskel
 

@@ -17,11 +17,19 @@ constexpr double kMaxRows = 4e9;
 constexpr double kMaxCrossings = 1 << 27;
 constexpr size_t kTrianglesBetweenStops = 1 << 14;
 
-absl::Status CheckWork(const FillRequest& request, const SegmentRule& rule) {
-  CrossingWork total;
-  for (const SegmentRule::Region& region : rule.extra_regions()) {
-    total.crossings += 4.0 * (region.j.end - region.j.begin) * (region.k.end - region.k.begin);
+// The crossings of the marks at both ends of the rows in the regions.
+double CrossingsOf(std::span<const SegmentRule::Region> regions) {
+  double crossings = 0;
+  for (const SegmentRule::Region& region : regions) {
+    crossings += 4.0 * (region.j.end - region.j.begin) * (region.k.end - region.k.begin);
   }
+  return crossings;
+}
+
+}  // namespace
+
+absl::Status CheckCrossingWork(const FillRequest& request, double others) {
+  CrossingWork total = {.crossings = others};
   for (size_t t = 0; t < request.triangles.size(); ++t) {
     const CrossingWork work = EstimateWork(request, t);
     total.rows += work.rows;
@@ -34,6 +42,8 @@ absl::Status CheckWork(const FillRequest& request, const SegmentRule& rule) {
                       "%.3g): choose a larger spacing or fewer points",
                       total.crossings, kMaxCrossings, total.rows, kMaxRows));
 }
+
+namespace {
 
 // Bricks in the order of their keys.
 struct BrickList {
@@ -223,7 +233,7 @@ class SlabFiller {
 
 absl::StatusOr<Volume> FillRows(const FillRequest& request, const SegmentRule& rule,
                                 const exec::Context& context) {
-  BCCSKEL_RETURN_IF_ERROR(CheckWork(request, rule));
+  BCCSKEL_RETURN_IF_ERROR(CheckCrossingWork(request, CrossingsOf(rule.extra_regions())));
   SlabFiller filler(request, rule, context);
   context.Offer([&filler](int) { filler.Work(); });
   return filler.Finish();

@@ -15,54 +15,21 @@
 #include "core/exec/status_macros.h"
 #include "core/exec/worker_team.h"
 #include "core/import/voxelize/grid_fit.h"
+#include "core/import/voxelize/needles.h"
 #include "core/import/voxelize/slab_plan.h"
+#include "core/import/voxelize/surface_sides.h"
 
 namespace bccskel {
 namespace {
 
-constexpr double kThickness = 2;  // lattice units: thinner parts are thickened to this
-constexpr double kLeastThickness = 1 / 16.0;
 constexpr double kOpposite = -0.8;    // cosine of the normals of the two sides, at most
 constexpr double kLeastCosine = 0.5;  // of a normal and the row that crosses; an axis has 0.57
 constexpr double kSmall = 4;  // lattice units: a larger triangle is not judged by its center
-// Depths behind a triangle, lattice units. The lattice point next to a place is at most 1.12 units
-// off, so the first lies behind a thin part. The second finds most thin parts with others behind.
-constexpr std::array<double, 2> kProbes = {kThickness + 1.2, kThickness + 0.1};
-constexpr double kTicksPerUnit = 1 << kTickBits;
-constexpr size_t kAtOnce = 1 << 12;  // triangles
+constexpr size_t kTrianglesAtOnce = 1 << 12;  // triangles
 constexpr size_t kAxes = 3;
 
-// The triangles of the surface with outward normals of length 1; 0 for those without area.
-class Sides {
- public:
-  Sides(const FillRequest& request, size_t triangles) : request_(request), triangles_(triangles) {}
-
-  size_t size() const { return triangles_; }
-  std::array<Coordinates, 3> Corners(size_t triangle) const {
-    std::array<Coordinates, 3> corners;
-    for (size_t n = 0; n < corners.size(); ++n) {
-      const GridPoint& p = request_.vertices[request_.triangles[triangle][n]];
-      corners[n] = {static_cast<double>(p.x) / kTicksPerUnit,
-                    static_cast<double>(p.y) / kTicksPerUnit,
-                    static_cast<double>(p.z) / kTicksPerUnit};
-    }
-    return corners;
-  }
-  Coordinates Normal(size_t triangle) const {
-    const auto [a, b, c] = Corners(triangle);
-    const Coordinates normal = Cross(Sum(b, -1, a), Sum(c, -1, a));
-    const double length = std::sqrt(Dot(normal, normal));
-    if (length == 0) return normal;
-    return Sum({0, 0, 0}, request_.sign[triangle] / length, normal);
-  }
-
- private:
-  const FillRequest& request_;
-  const size_t triangles_;
-};
-
 // Whether the solid may be thin behind the triangle.
-bool MayBeThin(const Sides& sides, size_t triangle, NearbyBricks& bricks) {
+bool MayBeThin(const SurfaceSides& sides, size_t triangle, NearbyBricks& bricks) {
   const auto [a, b, c] = sides.Corners(triangle);
   for (size_t axis = 0; axis < kAxes; ++axis) {
     const auto [low, high] = std::minmax({a[axis], b[axis], c[axis]});
@@ -70,16 +37,14 @@ bool MayBeThin(const Sides& sides, size_t triangle, NearbyBricks& bricks) {
   }
   const Coordinates normal = sides.Normal(triangle);
   const Coordinates center = Sum({0, 0, 0}, 1.0 / 3, Sum(Sum(a, 1, b), 1, c));
-  return std::ranges::any_of(kProbes, [&](double depth) {
-    return !bricks.Contains(PointNear(Sum(center, -depth, normal), {1, 1, 1}));
-  });
+  return MayBeThinBehind(center, normal, bricks);
 }
 
 // Indices of the triangles behind which the solid may be thin.
-std::vector<uint32_t> ThinTriangles(const Sides& sides, const Volume& sampling,
+std::vector<uint32_t> ThinTriangles(const SurfaceSides& sides, const Volume& sampling,
                                     const exec::Context& context) {
   std::vector<uint8_t> thin(sides.size());
-  exec::Portions portions(sides.size(), kAtOnce);
+  exec::Portions portions(sides.size(), kTrianglesAtOnce);
   context.Offer([&](int) {
     NearbyBricks bricks(sampling);
     for (exec::Share mine = portions.Take(); mine.begin < mine.end; mine = portions.Take()) {
@@ -99,7 +64,7 @@ std::vector<uint32_t> ThinTriangles(const Sides& sides, const Volume& sampling,
 // The thin triangles with one of the axes turned to x, as rays run along x only.
 class TurnedSides {
  public:
-  TurnedSides(const FillRequest& request, const Sides& sides, std::span<const uint32_t> thin,
+  TurnedSides(const FillRequest& request, const SurfaceSides& sides, std::span<const uint32_t> thin,
               size_t axis)
       : axis_(axis) {
     const LatticeExtent& e = request.extent;
@@ -118,7 +83,13 @@ class TurnedSides {
       turned_.sign.push_back(request.sign[t]);
     }
     turned_.triangles = triangles_;
+  }
+
+  // Needs: before Append(). Errors: RESOURCE_EXHAUSTED (too many rows or crossings).
+  absl::Status Plan() {
+    BCCSKEL_RETURN_IF_ERROR(CheckCrossingWork(turned_, 0));
     plan_.emplace(turned_);
+    return absl::OkStatus();
   }
 
   size_t slabs() const { return plan_->size(); }
@@ -153,8 +124,8 @@ class TurnedSides {
     const double from = static_cast<double>(in.x) / kTicksPerUnit;
     const double to = static_cast<double>(out.x) / kTicksPerUnit;
     const double thickness = (to - from) * cosine;
-    if (thickness < kLeastThickness || thickness >= kThickness) return;
-    const double middle = (from + to) / 2, reach = kThickness / 2 / cosine;
+    if (thickness < kLeastThickness || thickness >= kLeastResolved) return;
+    const double middle = (from + to) / 2, reach = kLeastResolved / 2 / cosine;
     const LatticeRow row = in.row.row();
     const auto odd = static_cast<int32_t>(row.sublattice);
     const auto first = static_cast<int32_t>(std::ceil((middle - reach - odd) / 2));
@@ -171,14 +142,16 @@ class TurnedSides {
 };
 
 // The points that the thin triangles need, in no order, some more than once.
-std::vector<LatticePoint> MissingPoints(const FillRequest& request, const Sides& sides,
-                                        std::span<const uint32_t> thin,
-                                        const exec::Context& context) {
+absl::StatusOr<std::vector<LatticePoint>> MissingPoints(const FillRequest& request,
+                                                        const SurfaceSides& sides,
+                                                        std::span<const uint32_t> thin,
+                                                        const exec::Context& context) {
   std::vector<TurnedSides> turned;
   std::vector<std::pair<size_t, size_t>> tasks;  // axis and slab
   turned.reserve(kAxes);
   for (size_t axis = 0; axis < kAxes; ++axis) {
     turned.emplace_back(request, sides, thin, axis);
+    BCCSKEL_RETURN_IF_ERROR(turned[axis].Plan());
     for (size_t slab = 0; slab < turned[axis].slabs(); ++slab) tasks.emplace_back(axis, slab);
   }
   std::vector<std::vector<LatticePoint>> found(tasks.size());
@@ -199,11 +172,15 @@ std::vector<LatticePoint> MissingPoints(const FillRequest& request, const Sides&
 
 absl::StatusOr<Volume> WithThinParts(Volume sampling, const FillRequest& request, size_t triangles,
                                      const exec::Context& context) {
-  const Sides sides(request, triangles);
+  const SurfaceSides sides(request, triangles);
   const std::vector<uint32_t> thin = ThinTriangles(sides, sampling, context);
   BCCSKEL_RETURN_IF_ERROR(context.StopStatus());
   if (thin.empty()) return sampling;
-  std::vector<LatticePoint> missing = MissingPoints(request, sides, thin, context);
+  BCCSKEL_ASSIGN_OR_RETURN(std::vector<LatticePoint> missing,
+                           MissingPoints(request, sides, thin, context));
+  BCCSKEL_ASSIGN_OR_RETURN(const std::vector<LatticePoint> of_needles,
+                           NeedlePoints(sides, thin, sampling, context));
+  missing.insert(missing.end(), of_needles.begin(), of_needles.end());
   BCCSKEL_RETURN_IF_ERROR(context.StopStatus());
   std::erase_if(missing, [&](LatticePoint p) {
     return !sampling.extent().Contains(p) || sampling.Contains(p);

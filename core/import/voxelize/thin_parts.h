@@ -14,14 +14,14 @@ namespace bccskel {
 enum class ThinParts { kKeep, kSample };
 
 // Adds the lattice points that keep thin parts of a solid whole: fins, leaves, walls, the edges of
-// blades. Which of the points inside a part thinner than two lattice units is a matter of chance:
-// they leave a comb with many teeth and tunnels, or nothing.
-// Does:    finds the places where two nearly opposite sides of the surface are less than two units
+// blades, hairs and wires. Which of the points inside a part thinner than two lattice units is a
+// matter of chance: they leave a comb with many teeth and tunnels, or nothing. Does:    finds the
+// places where two nearly opposite sides of the surface are less than two units
 //          apart, and adds the points within one unit of the middle between them. Two units are the
 //          least thickness at which a slab of lattice points has no holes in any direction: no step
-//          between neighbors is longer across it.
+//          between neighbors is longer across it. Needles: see NeedlePoints().
 // Leaves:  parts thinner than 1/16 unit, since surfaces that are folded onto themselves enclose
-//          nothing; needles, where rows of the lattice pass beside them; gaps, which may close.
+//          nothing; gaps, which may close.
 // Needs:   `sampling` was filled from the request by winding number. `triangles`: how many of the
 //          request's, from the first, are the surface; the others are caps.
 // Cost:    about 20 ns per triangle; where the solid is thin, as much as FillRows() per axis.

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "core/exec/worker_team.h"
@@ -157,6 +158,81 @@ TEST(ThinParts, CountsTowardTheLimitButNotTowardTheNumberAskedFor) {
       Voxelize(mesh, {.points = 20000, .max_points = asked.volume.PointCount() - 1}, {});
   EXPECT_EQ(refused.status().code(), absl::StatusCode::kResourceExhausted);
   EXPECT_THAT(refused.status().message(), HasSubstr("lattice points"));
+}
+
+// A prism around the z axis from 0 to `length`.
+TriangleMesh Needle(double radius, double length, uint32_t sides) {
+  TriangleMesh mesh;
+  for (const double z : {0.0, length}) {
+    for (uint32_t n = 0; n < sides; ++n) {
+      const double turn = 2 * std::numbers::pi * n / sides;
+      mesh.vertices.push_back({radius * std::cos(turn), radius * std::sin(turn), z});
+    }
+  }
+  for (uint32_t n = 0; n < sides; ++n) {
+    const uint32_t next = (n + 1) % sides;
+    mesh.triangles.push_back({n, next, n + sides});
+    mesh.triangles.push_back({next, next + sides, n + sides});
+  }
+  for (uint32_t n = 1; n + 1 < sides; ++n) {
+    mesh.triangles.push_back({0, n + 1, n});
+    mesh.triangles.push_back({sides, sides + n, sides + n + 1});
+  }
+  return mesh;
+}
+
+TEST(ThinParts, NeedlesOfABodyAreWholeToTheirTips) {
+  std::mt19937 random(8);
+  constexpr double kLength = 3;
+  int broken = 0;
+  for (const double radius : {0.2, 0.5, 0.8, 1.1}) {
+    for (const uint32_t sides : {4u, 7u, 12u}) {
+      for (int pose = 0; pose < 4; ++pose) {
+        const TriangleMesh mesh = Turned(
+            Merged(testing::Sphere({0, 0, 0}, 1), Needle(radius * kUnit, kLength, sides)), random);
+        const VoxelizeResult kept = Kept(mesh);
+        EXPECT_EQ(TopologyOf(kept), (BettiNumbers{1, 0, 0})) << radius << ' ' << sides;
+        double farthest = 0;
+        kept.volume.ForEachPoint([&](LatticePoint p) {
+          const WorldPoint at = kept.volume.placement().ToWorld(p);
+          farthest = std::max(farthest, std::sqrt(Dot(at, at)));
+        });
+        EXPECT_NEAR(farthest, kLength, 2 * kUnit) << radius << ' ' << sides;
+        broken += TopologyOf(Sampled(mesh)) != BettiNumbers{1, 0, 0};
+      }
+    }
+  }
+  EXPECT_GE(broken, 16);  // of 48; where nothing is left of the needle, the body is whole
+}
+
+TEST(ThinParts, ThinRingsAndKnotsStayClosed) {
+  for (const double radius : {0.3, 0.6, 0.9}) {
+    EXPECT_EQ(TopologyOf(Kept(testing::Torus(1, radius * kUnit, 90, 9))), (BettiNumbers{1, 1, 0}));
+    EXPECT_EQ(TopologyOf(Kept(testing::TrefoilTube(radius * kUnit, 400, 8))),
+              (BettiNumbers{1, 1, 0}));
+  }
+}
+
+TEST(ThinParts, PartsSmallerThanACellAreKept) {
+  TriangleMesh mesh = Box({0, 0, 0}, {1, 1, 1});
+  for (int n = 0; n < 20; ++n) {
+    const double at = 2 + 0.437 * n;
+    mesh = Merged(mesh, testing::Sphere({at, 0.3 * at, -0.7 * at}, 0.4 * kUnit));
+  }
+  EXPECT_EQ(TopologyOf(Kept(mesh)), (BettiNumbers{21, 0, 0}));
+  EXPECT_LT(TopologyOf(Sampled(mesh)).components, 12);
+}
+
+// Slivers as long as the lattice may be, which no row along x crosses.
+TEST(ThinParts, MeshesThatTakeFarTooMuchWorkAreRefused) {
+  TriangleMesh mesh;
+  for (int n = 0; n < 400; ++n) {
+    const double at = 0.01 * n;
+    mesh = Merged(mesh, Box({0, at, 0}, {1e5, at + 1e-5, 1e-5}));
+  }
+  const auto refused = Voxelize(mesh, {.spacing = 0.05}, {});
+  EXPECT_EQ(refused.status().code(), absl::StatusCode::kResourceExhausted);
+  EXPECT_THAT(refused.status().message(), HasSubstr("choose a larger spacing"));
 }
 
 // Why two units: no step between neighbors crosses a slab of that thickness.

@@ -131,7 +131,8 @@ TEST(VoxelizeSpacing, IsTheEdgeOfTheCubicCellInUnitsOfTheMesh) {
 }
 
 TEST(VoxelizeSpacing, TooLargeGivesAnEmptySolidWithAWarning) {
-  const VoxelizeResult result = Voxelized(Box({0, 0, 0}, {1, 1, 1}), {.spacing = 3});
+  const VoxelizeResult result =
+      Voxelized(Box({0, 0, 0}, {1, 1, 1}), {.spacing = 3, .thin_parts = ThinParts::kSample});
   EXPECT_TRUE(result.volume.empty());
   EXPECT_THAT(result.warnings, ::testing::Contains(HasSubstr("spacing is too large")));
 }
