@@ -1,10 +1,44 @@
-// Any bytes as a mesh file: an error or a mesh whose indices hold, never a crash.
+// Any bytes as a mesh file: an error or a mesh whose indices hold, never a crash; and any mesh
+// filled with a few points, of which keeping thin parts takes none away.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <string_view>
 
 #include "core/import/mesh/mesh_file.h"
+#include "core/import/voxelize/voxelize.h"
+
+namespace {
+
+using bccskel::FillRule;
+using bccskel::ThinParts;
+using bccskel::TriangleMesh;
+
+void Fill(const TriangleMesh& mesh) {
+  constexpr size_t kMostTriangles = 1000;
+  if (mesh.triangles.size() > kMostTriangles) return;
+  bccskel::VoxelizeOptions options = {
+      .points = 300, .fill = FillRule::kWinding, .max_points = 100'000};
+  const auto kept = Voxelize(mesh, options, {});
+  if (!kept.ok()) return;
+  const auto& spacing = kept->volume.placement().spacing;
+  options.points.reset();
+  options.spacing = spacing[0];
+  options.topology = bccskel::TopologyCheck::kSkip;
+  options.thin_parts = ThinParts::kSample;
+  const auto sampled = Voxelize(mesh, options, {});
+  options.thin_parts = ThinParts::kKeep;
+  const auto whole = Voxelize(mesh, options, {});
+  if (!sampled.ok() || !whole.ok()) return;
+  if (whole->volume.PointCount() != sampled->volume.PointCount() + whole->added_points) {
+    std::abort();
+  }
+  sampled->volume.ForEachPoint([&](bccskel::LatticePoint p) {
+    if (!whole->volume.Contains(p)) std::abort();
+  });
+}
+
+}  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
@@ -18,6 +52,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
         if (corner >= mesh->vertices.size()) std::abort();
       }
     }
+    Fill(*mesh);
   }
   return 0;
 }
