@@ -241,7 +241,9 @@ class Voxelizer {
   // middle, where opposite walls jump at different spacings.
   absl::StatusOr<Sampling> FillToCount(uint64_t target) {
     constexpr int kTries = 16;
-    constexpr int kFruitlessTries = 7;  // a surface folded onto itself encloses no point, ever
+    // A surface folded onto itself encloses no point, ever. In an open one each row near a hole is
+    // slow, so a file of three triangles took minutes.
+    const int fruitless_tries = surface_.report.closure == SurfaceClosure::kOpen ? 4 : 7;
     constexpr double kTolerance = 0.02;
     BCCSKEL_ASSIGN_OR_RETURN(const double first, FirstSpacing(target));
     const double least = LeastSpacing(target);
@@ -251,7 +253,7 @@ class Voxelizer {
     for (int n = 0; n < kTries; ++n) {
       if (n == kTries / 2) search = SpacingSearch(search.spacing());
       const GridShift shift = n < kTries / 2 ? GridShift::kCentered : GridShift::kOffCenter;
-      if (n == kFruitlessTries && best.volume.empty()) break;
+      if (n == fruitless_tries && best.volume.empty()) break;
       if (search.spacing() < least) break;
       BCCSKEL_ASSIGN_OR_RETURN(Sampling tried, Fill(search.spacing(), shift));
       const uint64_t count = tried.volume.PointCount();
