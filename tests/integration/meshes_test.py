@@ -223,6 +223,12 @@ class MeshesTest(harness.TestCase):
         self.fail_with(2, "--thin-parts are for meshes", "skeletonize", self.generate("ball"),
                        "--local", "--thin-parts", "sample", "-o", self.path("b.json"))
 
+    def test_an_open_mesh_that_encloses_nothing_is_soon_refused(self):
+        # Of three triangles; it took five minutes, on finer and finer grids.
+        seeds = pathlib.Path(__file__).parents[1] / "fuzz" / "seeds" / "mesh"
+        self.fail_with(3, "nothing enclosed", "voxelize", seeds / "open_encloses_nothing.stl",
+                       "--fill", "winding", "--points", 300, "-o", self.path("n.bccb"), timeout=60)
+
     def test_results_are_told_from_meshes(self):
         vtp, glb = self.path("s.vtp"), self.path("s.glb")
         self.succeed("skeletonize", self.path("mesh.off"), "--local", "--points", 3000, "-o", vtp,
