@@ -4,14 +4,13 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <limits>
 #include <optional>
 #include <utility>
 
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
-#include "core/exec/worker_team.h"
+#include "core/import/voxelize/gather.h"
 
 namespace bccskel {
 namespace {
@@ -76,12 +75,12 @@ absl::Status CheckWork(const SurfaceSides& sides, std::span<const uint32_t> thin
   if (probes <= kMostProbes) return absl::OkStatus();
   return absl::ResourceExhaustedError(
       absl::StrFormat("thin triangles take about %.3g probes (limit %.3g): choose a larger spacing "
-                      "or fewer points, "
-                      "or sample thin parts as they are",
+                      "or fewer points, or pass --thin-parts sample",
                       probes, kMostProbes));
 }
 
-// Cells of the lattice, kCell wide, by their coordinates. Needs: no coordinate below -1000.
+// Cells of the lattice, kCell wide, by their coordinates; of very large lattices some that are far
+// apart are the same. Needs: no coordinate below -1000.
 uint64_t CellOf(const Coordinates& place) {
   uint64_t cell = 0;
   for (const double v : place) cell = cell << 21 | static_cast<uint64_t>(v / kCell + 1024);
@@ -92,30 +91,21 @@ uint64_t CellOf(const Coordinates& place) {
 // probes, so those beside thin ones count, too.
 std::vector<Slim> ThinSlims(const SurfaceSides& sides, std::span<const uint32_t> thin,
                             const Volume& sampling, const exec::Context& context) {
-  std::vector<std::vector<Slim>> found(thin.size() / kAtOnce + 1);
-  exec::Portions portions(thin.size(), kAtOnce);
-  context.Offer([&](int) {
-    NearbyBricks bricks(sampling);
-    for (exec::Share mine = portions.Take(); mine.begin < mine.end; mine = portions.Take()) {
-      if (context.ShouldStop()) return;
-      for (size_t n = mine.begin; n < mine.end; ++n) {
-        std::optional<Slim> slim = SlimOf(sides, thin[n]);
-        if (!slim.has_value()) continue;
-        for (int probe = 0; probe < slim->probes; ++probe) {
-          const Coordinates at = slim->At((probe + 0.5) / slim->probes);
-          if (!MayBeThinBehind(at, slim->normal, bricks)) continue;
-          for (int near = std::max(probe - 1, 0); near <= std::min(probe + 1, slim->probes - 1);
-               ++near) {
-            if (slim->thin.empty() || near > slim->thin.back()) slim->thin.push_back(near);
-          }
+  return Gather<Slim>(thin.size(), kAtOnce, context, [&] {
+    return [&, bricks = NearbyBricks(sampling)](size_t n, std::vector<Slim>& slims) mutable {
+      std::optional<Slim> slim = SlimOf(sides, thin[n]);
+      if (!slim.has_value()) return;
+      for (int probe = 0; probe < slim->probes; ++probe) {
+        const Coordinates at = slim->At((probe + 0.5) / slim->probes);
+        if (!MayBeThinBehind(at, slim->normal, bricks)) continue;
+        const int last = std::min(probe + 1, slim->probes - 1);
+        for (int near = std::max(probe - 1, 0); near <= last; ++near) {
+          if (slim->thin.empty() || near > slim->thin.back()) slim->thin.push_back(near);
         }
-        if (!slim->thin.empty()) found[mine.begin / kAtOnce].push_back(*std::move(slim));
       }
-    }
+      if (!slim->thin.empty()) slims.push_back(*std::move(slim));
+    };
   });
-  std::vector<Slim> all;
-  for (std::vector<Slim>& slims : found) std::ranges::move(slims, std::back_inserter(all));
-  return all;
 }
 
 // How far along the ray, whose direction has length 1, the triangle is; none if it passes by.
@@ -218,20 +208,11 @@ absl::StatusOr<std::vector<LatticePoint>> NeedlePoints(const SurfaceSides& sides
                                                        const exec::Context& context) {
   BCCSKEL_RETURN_IF_ERROR(CheckWork(sides, thin));
   const SlimIndex index(ThinSlims(sides, thin, sampling, context));
-  const size_t count = index.slims().size();
-  std::vector<std::vector<LatticePoint>> found(count / kAtOnce + 1);
-  exec::Portions portions(count, kAtOnce);
-  context.Offer([&](int) {
-    for (exec::Share mine = portions.Take(); mine.begin < mine.end; mine = portions.Take()) {
-      if (context.ShouldStop()) return;
-      for (size_t n = mine.begin; n < mine.end; ++n) {
-        AppendPoints(index, static_cast<uint32_t>(n), found[mine.begin / kAtOnce]);
-      }
-    }
+  return Gather<LatticePoint>(index.slims().size(), kAtOnce, context, [&] {
+    return [&](size_t n, std::vector<LatticePoint>& points) {
+      AppendPoints(index, static_cast<uint32_t>(n), points);
+    };
   });
-  std::vector<LatticePoint> all;
-  for (const auto& points : found) all.insert(all.end(), points.begin(), points.end());
-  return all;
 }
 
 }  // namespace bccskel

@@ -13,7 +13,7 @@
 #include "absl/strings/str_format.h"
 #include "core/distance/places.h"
 #include "core/exec/status_macros.h"
-#include "core/exec/worker_team.h"
+#include "core/import/voxelize/gather.h"
 #include "core/import/voxelize/grid_fit.h"
 #include "core/import/voxelize/needles.h"
 #include "core/import/voxelize/slab_plan.h"
@@ -43,22 +43,11 @@ bool MayBeThin(const SurfaceSides& sides, size_t triangle, NearbyBricks& bricks)
 // Indices of the triangles behind which the solid may be thin.
 std::vector<uint32_t> ThinTriangles(const SurfaceSides& sides, const Volume& sampling,
                                     const exec::Context& context) {
-  std::vector<uint8_t> thin(sides.size());
-  exec::Portions portions(sides.size(), kTrianglesAtOnce);
-  context.Offer([&](int) {
-    NearbyBricks bricks(sampling);
-    for (exec::Share mine = portions.Take(); mine.begin < mine.end; mine = portions.Take()) {
-      if (context.ShouldStop()) return;
-      for (size_t t = mine.begin; t < mine.end; ++t) {
-        thin[t] = MayBeThin(sides, t, bricks) ? 1 : 0;
-      }
-    }
+  return Gather<uint32_t>(sides.size(), kTrianglesAtOnce, context, [&] {
+    return [&, bricks = NearbyBricks(sampling)](size_t t, std::vector<uint32_t>& thin) mutable {
+      if (MayBeThin(sides, t, bricks)) thin.push_back(static_cast<uint32_t>(t));
+    };
   });
-  std::vector<uint32_t> triangles;
-  for (size_t t = 0; t < thin.size(); ++t) {
-    if (thin[t] != 0) triangles.push_back(static_cast<uint32_t>(t));
-  }
-  return triangles;
 }
 
 // The thin triangles with one of the axes turned to x, as rays run along x only.
@@ -154,18 +143,11 @@ absl::StatusOr<std::vector<LatticePoint>> MissingPoints(const FillRequest& reque
     BCCSKEL_RETURN_IF_ERROR(turned[axis].Plan());
     for (size_t slab = 0; slab < turned[axis].slabs(); ++slab) tasks.emplace_back(axis, slab);
   }
-  std::vector<std::vector<LatticePoint>> found(tasks.size());
-  exec::Portions portions(tasks.size(), 1);
-  context.Offer([&](int) {
-    for (exec::Share mine = portions.Take(); mine.begin < mine.end; mine = portions.Take()) {
-      if (context.ShouldStop()) return;
-      const auto [axis, slab] = tasks[mine.begin];
-      turned[axis].Append(slab, found[mine.begin]);
-    }
+  return Gather<LatticePoint>(tasks.size(), 1, context, [&] {
+    return [&](size_t task, std::vector<LatticePoint>& points) {
+      turned[tasks[task].first].Append(tasks[task].second, points);
+    };
   });
-  std::vector<LatticePoint> all;
-  for (const auto& points : found) all.insert(all.end(), points.begin(), points.end());
-  return all;
 }
 
 }  // namespace
