@@ -55,7 +55,6 @@ class ReadCall final : public ReadBase {
     ++index_;
     complete_ = piece.has_summary();
     std::lock_guard lock(mutex_);
-    ++pieces_;
     piece_ = std::move(piece);
     Advance();
     return absl::OkStatus();
@@ -69,10 +68,8 @@ class ReadCall final : public ReadBase {
   std::optional<v1::ReadSkeletonResponse> Next() override {
     return std::exchange(piece_, std::nullopt);
   }
-  // The first message is sent with the initial metadata, and gRPC 1.51 reports them as written only
-  // once they are sent: with the buffer hint it would wait forever.
   Following Follows(const v1::ReadSkeletonResponse& response) const override {
-    return response.has_summary() || pieces_ == 1 ? Following::kFetched : Following::kFetchedAtOnce;
+    return response.has_summary() ? Following::kFetched : Following::kFetchedAtOnce;
   }
   std::shared_ptr<ReadCall> Self() {
     return std::static_pointer_cast<ReadCall>(shared_from_this());
@@ -82,7 +79,6 @@ class ReadCall final : public ReadBase {
   // Used by one reaction at a time.
   std::shared_ptr<ResultReader> reader_;
   uint32_t index_;
-  int pieces_ = 0;                                 // read so far
   bool complete_ = false;                          // the summary was read
   std::optional<v1::ReadSkeletonResponse> piece_;  // guarded by mutex_
 };

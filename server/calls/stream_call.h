@@ -166,10 +166,12 @@ class WritingCall : public Base {
       this->finished_ = true;
       return this->StartWriteAndFinish(&response_, options, grpc::Status::OK);
     }
-    // Combines this response with the next in one write to the socket.
-    if (following == Following::kAtOnce || following == Following::kFetchedAtOnce) {
+    // Combines this response with the next in one write to the socket. Not the first: gRPC 1.51
+    // sends it with the initial metadata, and with the hint never reports them as written.
+    if (begun_ && (following == Following::kAtOnce || following == Following::kFetchedAtOnce)) {
       options.set_buffer_hint();
     }
+    begun_ = true;
     this->StartWrite(&response_, options);
   }
   bool writing() const { return writing_since_.has_value(); }  // Needs: mutex_ held.
@@ -177,6 +179,7 @@ class WritingCall : public Base {
  private:
   Response response_;                                   // of the write in flight
   std::optional<OpenStream::TimePoint> writing_since_;  // guarded by mutex_
+  bool begun_ = false;                                  // guarded by mutex_: has written
   bool ended_early_ = false;                            // guarded by mutex_
 };
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <semaphore>
@@ -48,6 +49,7 @@ class FakeRunner : public JobRunner {
   absl::StatusOr<std::shared_ptr<Job>> Start(JobRequest,
                                              std::shared_ptr<JobListener> listener) override {
     job_ = std::make_shared<FakeJob>(std::move(listener));
+    if (on_start) on_start(job_->listener());
     started_.release();
     return job_;
   }
@@ -59,6 +61,8 @@ class FakeRunner : public JobRunner {
     started_.acquire();
     return job_;
   }
+
+  std::function<void(JobListener&)> on_start;  // called before the job is accepted
 
  private:
   std::shared_ptr<FakeJob> job_;
@@ -130,6 +134,18 @@ TEST_F(MemorySessionTest, ASlowReaderHoldsUpNobodyAndHearsTheNewest) {
   EXPECT_EQ(newest, kShells);
   EXPECT_LT(heard, kShells / 2);
   EXPECT_TRUE(call.Finish().ok());
+}
+
+TEST_F(MemorySessionTest, AFirstResponseWithOthersBehindItArrives) {
+  runner_.on_start = [](JobListener& listener) {
+    listener.OnShell({.shell = 1, .last_shell = 2}, std::chrono::milliseconds(1));
+  };
+  test::RawCall call(channel_, std::chrono::seconds(20));
+  ASSERT_TRUE(call.Send(ConfigRequest(test::SmallTorusPlanes())));
+  const auto first = call.Receive(), second = call.Receive();
+  ASSERT_TRUE(first.has_value() && second.has_value()) << call.Finish();
+  EXPECT_TRUE(first->has_accepted());
+  EXPECT_TRUE(second->has_shell_progress());
 }
 
 TEST_F(MemorySessionTest, ACancelledCallCancelsItsJob) {
