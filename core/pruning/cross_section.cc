@@ -29,6 +29,10 @@ constexpr std::array<std::array<double, 2>, 8> kTurns = {{{1, 0},
 // Tangents of smaller turns to either side of the widest of these.
 constexpr double kFirstTurn = 0.2, kLeastTurn = 0.01;
 
+bool IsWall(const CrossSection& section) {
+  return section.half_width >= kWallFlatness * section.radius + kWallMargin;
+}
+
 }  // namespace
 
 CrossSection CrossSections::Across(const Coordinates& middle, const Coordinates& way, double radius,
@@ -42,12 +46,15 @@ CrossSection CrossSections::Across(const Coordinates& middle, const Coordinates&
 }
 
 void CrossSections::Refine(double reach, CrossSection& section) {
+  const bool wide = section.half_width > kRoundness * section.radius + kRoundMargin;
+  if (wide) TurnFinely(reach, section);
+  if (wide && IsWall(section)) return FollowWall(reach, section);
   section.inscribed = section.radius;
-  if (section.half_width <= kRoundness * section.radius + kRoundMargin) return;
-  TurnFinely(reach, section);
-  if (section.half_width < kWallFlatness * section.radius + kWallMargin) return;
-  FollowWall(reach, section);
-  FindInscribed(section);
+}
+
+double CrossSections::Inscribed(CrossSection& section) {
+  if (section.inscribed == 0) section.inscribed = FindInscribed(section);
+  return section.inscribed;
 }
 
 // Lines that do not lie in a thin plate soon leave it.
@@ -81,7 +88,7 @@ void CrossSections::FollowWall(double reach, CrossSection& section) {
 }
 
 // Uses the third shortest of 16 lines: noise, or a bend met at a slant, may end a line early.
-void CrossSections::FindInscribed(CrossSection& section) {
+double CrossSections::FindInscribed(const CrossSection& section) {
   std::array<double, 3> least;
   least.fill(section.half_width);
   for (const auto& [cosine, sine] : kTurns) {
@@ -92,7 +99,7 @@ void CrossSections::FindInscribed(CrossSection& section) {
       std::ranges::sort(least);
     }
   }
-  section.inscribed = std::max(least.back(), section.radius);
+  return std::max(least.back(), section.radius);
 }
 
 CrossSections::Front CrossSections::FrontOf(const CrossSection& section, const Coordinates& way) {

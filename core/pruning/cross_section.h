@@ -12,7 +12,8 @@ struct CrossSection {
   double radius = 0;
   Coordinates side = {0, 0, 0};  // direction of the widest line, of length 1
   double half_width = 0;         // the mean of the two sides of that line
-  double inscribed = 0;          // radius of the circle inscribed in a wall; 0: not known yet
+  // Of a wall, the radius of the circle inscribed in it; else `radius`. 0: not known yet.
+  double inscribed = 0;
 };
 
 // Measures how wide the object is across a branch, by lines that end where they leave it.
@@ -27,9 +28,11 @@ class CrossSections {
   // Needs: `way` has length 1; `radius` is that of the object at `middle`.
   CrossSection Across(const Coordinates& middle, const Coordinates& way, double radius,
                       double reach);
-  // Refines a section that is wider than round, by up to ten more lines beside the widest. In
-  // walls, lines follow the wall, and the radius of the inscribed circle is measured.
+  // Refines the width of a section that is wider than round, by up to ten more lines beside the
+  // widest. In walls, the widest line follows the wall. Never makes a section narrower.
   void Refine(double reach, CrossSection& section);
+  // The radius of the inscribed circle of a refined section, at most its half-width.
+  double Inscribed(CrossSection& section);
 
  private:
   // The state of a line that follows a bent wall.
@@ -43,7 +46,7 @@ class CrossSections {
   void TurnFinely(double reach, CrossSection& section);
   bool Widen(const Coordinates& side, double reach, CrossSection& section);
   void FollowWall(double reach, CrossSection& section);
-  void FindInscribed(CrossSection& section);
+  double FindInscribed(const CrossSection& section);
   static Front FrontOf(const CrossSection& section, const Coordinates& way);
   double WayInWall(Front front, double radius, double reach);
   bool GoOnInWall(Front& front, double out, double radius);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -42,6 +43,11 @@ size_t FirstOwnPlace(const ThinSet& set, const BranchPath& path, const Run& run)
   const auto way = [&] { return set.Between(path.points[0], path.points[PlaceIn(run, place)]); };
   while (place + 1 < Significance::kPlaces && way() < kInJunction * path.radii[0]) ++place;
   return place;
+}
+
+// By how much the object is wider than the radius.
+double WiderThanThick(const CrossSection& section) {
+  return std::max(section.half_width - section.radius, 0.0);
 }
 
 // The median of the values from `place` on.
@@ -147,7 +153,7 @@ Significance::Verdict Significance::Look(const ThinSet& set, const FreeBranch& b
 void Significance::Consider(const ThinSet& set, const BranchPath& path, const Run& run,
                             Verdict& best) {
   if (ValueAtMost(set, path, run) <= best.value) return;
-  const double value = ValueOf(set, path, run);
+  const double value = ValueOf(set, path, run, best.value);
   if (value > best.value) best.run = run, best.value = value;
 }
 
@@ -176,17 +182,62 @@ double Significance::ValueAtMost(const ThinSet& set, const BranchPath& path, con
   return most;
 }
 
-double Significance::ValueOf(const ThinSet& set, const BranchPath& path, const Run& run) {
+// The width near the tip stands in for the walls until the sections are refined. That makes none
+// narrower, so the bounds hold; circles in walls are inscribed only where they may decide.
+double Significance::ValueOf(const ThinSet& set, const BranchPath& path, const Run& run,
+                             double least) {
   const Coordinates along = set.Way(path.points[run.from], path.points[run.to]);
   const double radius = path.radii[run.from], out = BeyondNoise(run.elongation, radius, along);
   const double reach = std::min(kLongestRay, out / (kWidthShare * kLeastRatio) + 2 * radius + 4);
   Sections sections = SectionsAcross(path, run, reach);
-  double value = BestRoot(set, path, run, sections);
-  if (value >= kLeastFine) {
-    for (CrossSection& section : sections) sections_.Refine(reach, section);
-    value = BestRoot(set, path, run, sections);
+  const CrossSection& near_tip = sections[kNearTip];
+  const double width_near_tip = near_tip.radius + WiderThanThick(near_tip);
+  std::vector<Part> parts = PartsOf(set, path, run, sections);
+  double value = -std::numeric_limits<double>::infinity();
+  for (const Part& part : parts) {
+    const double narrower = sections[part.root].radius + part.wider - width_near_tip;
+    value = std::max(value, ValueOf(part, sections, narrower));
+  }
+  if (value < kLeastFine || parts.front().bound <= least) return value;
+  for (CrossSection& section : sections) sections_.Refine(reach, section);
+  parts = PartsOf(set, path, run, sections);
+  value = least;
+  for (const Part& part : parts) {
+    if (part.bound <= value) break;
+    const double at_root = sections_.Inscribed(sections[part.root]);
+    const double narrower = kWallSteepness * (at_root - sections_.Inscribed(sections[part.tip]));
+    value = std::max(value, ValueOf(part, sections, narrower));
   }
   return value;
+}
+
+std::vector<Significance::Part> Significance::PartsOf(const ThinSet& set, const BranchPath& path,
+                                                      const Run& run,
+                                                      const Sections& sections) const {
+  std::array<double, kPlaces> wider;
+  std::ranges::transform(sections, wider.begin(), WiderThanThick);
+  const size_t first_own = FirstOwnPlace(set, path, run);
+  std::vector<Part> parts;
+  parts.reserve(kRoots * kPlaces);
+  for (size_t root = 0; root < kRoots; ++root) {
+    const double median = MedianFrom(wider, std::max(root, first_own));
+    for (size_t tip = root + 1; tip < kPlaces; ++tip) {
+      const LatticePoint from = path.points[PlaceIn(run, root)];
+      const LatticePoint to = path.points[PlaceIn(run, tip)];
+      Part& part =
+          parts.emplace_back(Part{root, tip, set.Way(from, to), set.Between(from, to), median, 0});
+      part.bound = ValueOf(part, sections, -std::numeric_limits<double>::infinity());
+    }
+  }
+  std::ranges::sort(parts, std::greater<>(), &Part::bound);
+  return parts;
+}
+
+double Significance::ValueOf(const Part& part, const Sections& sections, double narrower) const {
+  const CrossSection& root = sections[part.root];
+  const double fallen = std::max(kSteepness * (root.radius - sections[part.tip].radius), narrower);
+  const double out = part.length - fallen;
+  return BeyondNoise(out, root.radius, part.way) / (root.radius + kWidthShare * part.wider);
 }
 
 // Extends the path beyond its end only if that may change the decision: it adds at most its length
@@ -219,36 +270,6 @@ void Significance::LookPastPits(BranchPath& path) {
     const double deeper = firm_depth_->At(path.points[n]) - path.radii[n];
     path.radii[n] += static_cast<float>(noise_.roughness * deeper);
   }
-}
-
-// The value of the run with the root that gives the largest one.
-double Significance::BestRoot(const ThinSet& set, const BranchPath& path, const Run& run,
-                              const Sections& sections) const {
-  // By how much the object is wider than the radius.
-  std::array<double, kPlaces> wider;
-  std::ranges::transform(sections, wider.begin(), [](const CrossSection& section) {
-    return std::max(section.half_width - section.radius, 0.0);
-  });
-  const double half_width_near_tip = wider[kNearTip] + sections[kNearTip].radius;
-  const size_t first_own = FirstOwnPlace(set, path, run);
-  double value = -std::numeric_limits<double>::infinity();
-  for (size_t place = 0; place < kRoots; ++place) {
-    const LatticePoint root = path.points[PlaceIn(run, place)];
-    const CrossSection& from = sections[place];
-    const double wide = MedianFrom(wider, std::max(place, first_own));
-    const double width = from.radius + kWidthShare * wide;
-    for (size_t tip = place + 1; tip < kPlaces; ++tip) {
-      const CrossSection& to = sections[tip];
-      const double narrower = from.inscribed == 0
-                                  ? from.radius + wide - half_width_near_tip
-                                  : kWallSteepness * (from.inscribed - to.inscribed);
-      const double fallen = std::max(kSteepness * (from.radius - to.radius), narrower);
-      const LatticePoint end = path.points[PlaceIn(run, tip)];
-      const double out = set.Between(root, end) - fallen;
-      value = std::max(value, BeyondNoise(out, from.radius, set.Way(root, end)) / width);
-    }
-  }
-  return value;
 }
 
 // Skips points near the junction, where other branches are always near.

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -79,6 +80,15 @@ class Significance {
 
   using Sections = std::array<CrossSection, kPlaces>;
 
+  // A part of a run, from a root to a later place.
+  struct Part {
+    size_t root, tip;
+    Coordinates way;  // from the root to the tip
+    double length;    // of `way`
+    double wider;     // than thick: by how much the object is, the median from the root on
+    double bound;     // of the value, whatever the walls
+  };
+
   Verdict Look(const ThinSet& set, const FreeBranch& branch);
   // Replaces the best run by this one if its value is larger.
   void Consider(const ThinSet& set, const BranchPath& path, const Run& run, Verdict& best);
@@ -86,15 +96,19 @@ class Significance {
   const Verdict* Known(const FreeBranch& branch) const;
   Run RunOf(const ThinSet& set, BranchPath& path);
   void LookPastPits(BranchPath& path);
-  // The value of a run without the factor `uncovered`.
-  double ValueOf(const ThinSet& set, const BranchPath& path, const Run& run);
+  // The value of a run without the factor `uncovered`; not exact if it is at most `least`.
+  double ValueOf(const ThinSet& set, const BranchPath& path, const Run& run,
+                 double least = -std::numeric_limits<double>::infinity());
   double BeyondNoise(double elongation, double radius, const Coordinates& way) const;
   // An upper bound of ValueOf() without rays; it holds in floating point, too.
   double ValueAtMost(const ThinSet& set, const BranchPath& path, const Run& run) const;
   double UncoveredShare(const ThinSet& set, const FreeBranch& branch, const Run& run);
   Sections SectionsAcross(const BranchPath& path, const Run& run, double reach);
-  double BestRoot(const ThinSet& set, const BranchPath& path, const Run& run,
-                  const Sections& sections) const;
+  // Those with the largest bounds first.
+  std::vector<Part> PartsOf(const ThinSet& set, const BranchPath& path, const Run& run,
+                            const Sections& sections) const;
+  // `narrower`: by how much the object becomes narrower along the part.
+  double ValueOf(const Part& part, const Sections& sections, double narrower) const;
 
   const SurfaceNoise noise_;
   const AxisScale scale_;
