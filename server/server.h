@@ -72,10 +72,11 @@ class Server {
   bool data_healthy_ = true;  // at the last UpdateDataHealth()
   ServerMetrics metrics_;
   JobPool jobs_;
-  // After jobs_: calls end before DurableJobs, and DurableJobs before the jobs' threads.
+  // After jobs_: DurableJobs ends before the jobs' threads. It holds sessions of calls, which use
+  // services_, so it also ends before these; the listeners end the calls first of all.
+  std::unique_ptr<Services> services_;
   std::unique_ptr<const JobCodec> codec_;
   std::unique_ptr<DurableJobs> durable_jobs_;  // null without a data directory
-  std::unique_ptr<Services> services_;
   std::unique_ptr<Listener> public_listener_;
   std::unique_ptr<Listener> admin_listener_;  // null if the public one also serves admins
 };

@@ -192,6 +192,26 @@ TEST(ServerDrain, CutsOffWhatTakesTooLong) {
   test::WaitUntilIdle(*server);
 }
 
+TEST(ServerDrain, EndsWhileTheJobOfADurableCallIsComputed) {
+  const test::TemporaryFolder folder;
+  ServerConfig config = test::SmallServer();
+  config.durable.data_directory = folder.File("data");
+  config.drain = milliseconds(0);
+  auto server = test::StartServer(config);
+  test::RawCall call(test::ConnectTo(server->address()));
+  const auto torus = GenerateShape(Shape::kTorus, {.points = 12'000'000});
+  for (auto& request : RequestsFor(test::Declare(*torus, VolumeEncoding::kRawPlanes))) {
+    if (request.has_config()) request.mutable_config()->set_threads(1);
+    ASSERT_TRUE(call.Send(request));
+  }
+  const auto accepted = call.Receive();
+  ASSERT_TRUE(accepted.has_value() && accepted->accepted().durable());
+  ASSERT_TRUE(call.Receive()->has_shell_progress());
+  server->Drain();
+  server.reset();
+  EXPECT_EQ(call.Finish().code(), absl::StatusCode::kUnavailable);
+}
+
 TEST(ServerDrain, AWatchedHealthStatusDoesNotHoldItUp) {
   ServerConfig config = test::SmallServer();
   config.drain = std::chrono::hours(1);
