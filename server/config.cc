@@ -142,6 +142,12 @@ void Resolve(const std::vector<Setting>& settings, const GivenValues& flags,
   for (const Setting& setting : settings) {
     const std::string& name = setting.name;
     if (const auto flag = flags.find(name); flag != flags.end()) {
+      // Such as --tokens "$UNSET", which must not mean: no tokens are needed.
+      if (std::ranges::count(flag->second, std::string()) > 0) {
+        resolver.problems.push_back(
+            absl::StrCat("--", name, ": is empty: give a ", setting.value, " or leave it out"));
+        continue;
+      }
       resolver.Take(setting, flag->second, "--" + name, "command line");
     } else if (const auto found = variables.find(name); found != variables.end()) {
       resolver.Take(setting, found->second, VariableOf(name), "environment");
@@ -154,9 +160,10 @@ void Resolve(const std::vector<Setting>& settings, const GivenValues& flags,
 void RefuseUnknown(const std::vector<Setting>& settings, const GivenValues& file,
                    SettingsResolver& resolver) {
   for (const auto& [name, values] : file) {
-    if (std::ranges::find(settings, name, &Setting::name) == settings.end()) {
-      resolver.problems.push_back(name + ": there is no such setting");
-    }
+    if (std::ranges::find(settings, name, &Setting::name) != settings.end()) continue;
+    resolver.problems.push_back(
+        name + (name.starts_with('[') ? ": the file must hold no sections; write its settings above"
+                                      : ": there is no such setting"));
   }
 }
 

@@ -220,8 +220,13 @@ absl::Status Server::Listen() {
   for (const std::string& service : plan.healthy) ExpectCallsOf(service, metrics_);
   plan.metrics = &metrics_;
   BCCSKEL_ASSIGN_OR_RETURN(public_listener_, Listener::Start(std::move(plan)));
+  const bool for_anyone = config_.tokens.empty() && config_.tls.client_ca.empty();
   for (const std::string& address : addresses()) {
     Log(LogLevel::kInfo, "listening", {{"address", address}});
+    if (!for_anyone || IsOfThisMachine(address)) continue;
+    Log(LogLevel::kWarning, "open to all",
+        {{"address", address},
+         {"message", "whoever reaches it may call: see --tokens and --tls-client-ca"}});
   }
   return absl::OkStatus();
 }

@@ -56,6 +56,10 @@ LogLevel LevelOf(const Method& method, const absl::Status& end) {
   return method.kind == Method::Kind::kQuestion ? LogLevel::kDebug : LogLevel::kInfo;
 }
 
+absl::Status Stopping() {
+  return CallError(Reason::kDraining, "the server is stopping and aborts the call");
+}
+
 std::optional<std::string_view> AuthorizationOf(const grpc::CallbackServerContext& context) {
   const auto header = context.client_metadata().find("authorization");
   if (header == context.client_metadata().end()) return std::nullopt;
@@ -75,9 +79,7 @@ absl::Status CheckName(const CallGate::Name& name) {
 }  // namespace
 
 absl::Status CallFacts::CancelStatus() const {
-  if (IsCutOff()) {
-    return CallError(Reason::kDraining, "the server is stopping and aborts the call");
-  }
+  if (IsCutOff()) return Stopping();
   return Clock::now() >= deadline ? absl::DeadlineExceededError("the call's deadline has passed")
                                   : absl::CancelledError("the caller cancelled the call");
 }
@@ -128,6 +130,17 @@ absl::Status OpenStreams::CheckToken(Entry& entry, uint64_t generation) const {
   return CallError(Reason::kTokenInvalid, "the token of this call is no longer accepted");
 }
 
+void OpenStreams::EndAll(const absl::Status& why) {
+  std::vector<std::shared_ptr<OpenStream>> calls;
+  {
+    std::lock_guard lock(mutex_);
+    for (const auto& [pointer, entry] : calls_) {
+      if (auto call = entry.call.lock()) calls.push_back(std::move(call));
+    }
+  }
+  for (const auto& call : calls) call->EndEarly(why);
+}
+
 void OpenStreams::EnforceLimits() {
   using Seen = std::pair<std::shared_ptr<OpenStream>, absl::Status>;
   const uint64_t generation = callers_.generation();
@@ -145,6 +158,11 @@ void OpenStreams::EnforceLimits() {
     if (status.ok()) status = call->CheckCaller(now, timeouts_);
     if (!status.ok()) call->EndEarly(status);
   }
+}
+
+void CallGate::CutOff() {
+  cut_off_ = true;
+  open_streams_.EndAll(Stopping());
 }
 
 absl::StatusOr<CallFacts> CallGate::Enter(const grpc::CallbackServerContext& context,

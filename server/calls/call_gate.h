@@ -53,6 +53,7 @@ class OpenStreams {
 
   // Called once a second.
   void EnforceLimits();
+  void EndAll(const absl::Status& why);
 
  private:
   struct Entry {
@@ -146,8 +147,9 @@ class CallGate {
 
   DurableJobs* durable_jobs() const { return durable_jobs_; }  // null without a data directory
 
-  // From now on cancelled calls count as aborted by the server.
-  void CutOff() { cut_off_ = true; }
+  // Ends the streaming calls with DRAINING. From now on cancelled calls count as aborted by the
+  // server.
+  void CutOff();
   // Called once a second.
   void EnforceCallLimits() { open_streams_.EnforceLimits(); }
 

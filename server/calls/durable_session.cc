@@ -57,8 +57,7 @@ class DurableSession final : public SkeletonizeSession,
     return absl::OkStatus();
   }
   void Append(v1::VolumeChunk& chunk) override {
-    std::optional<uint32_t> crc32c;
-    if (chunk.has_crc32c()) crc32c = chunk.crc32c();
+    const std::optional<uint32_t> crc32c = Crc32cOf(chunk);
     durable_jobs_.Append(tenant(), upload_, chunk.offset(), std::move(*chunk.mutable_data()),
                          crc32c, Then([](DurableSession& it, uint64_t) { it.call_->ReadNext(); }));
   }

@@ -16,6 +16,7 @@
 #include "server/calls/session.h"
 #include "server/calls/skeleton_responses.h"
 #include "server/errors/call_error.h"
+#include "server/jobs/chunk_checksum.h"
 #include "server/jobs/job_runner.h"
 
 namespace bccskel::server {
@@ -51,7 +52,11 @@ class MemorySession : public Session<Request, Response>,
     call_->ReadNext();
     return absl::OkStatus();
   }
-  void Append(v1::VolumeChunk& chunk) override { job_->Append(std::move(*chunk.mutable_data())); }
+  void Append(v1::VolumeChunk& chunk) override {
+    const absl::Status status = CheckChunk(chunk.data(), Crc32cOf(chunk));
+    if (!status.ok()) return call_->EndWith(status);
+    job_->Append(std::move(*chunk.mutable_data()));
+  }
   void Finish(const v1::VolumeFinish& finish) override {
     job_->FinishVolume(DigestOf(finish));
     call_->ReadNext();  // to detect requests after the finish

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -30,6 +31,11 @@ absl::StatusOr<LabelsRequest> JobRequestOf(const v1::SkeletonizeLabelsConfig& co
 
 // Checks the number of threads in this field of a request. Errors: INVALID_ARGUMENT.
 absl::Status CheckThreads(int32_t threads, const std::string& field);
+
+// What the sender states; nullopt: nothing.
+inline std::optional<uint32_t> Crc32cOf(const v1::VolumeChunk& chunk) {
+  return chunk.has_crc32c() ? std::optional(chunk.crc32c()) : std::nullopt;
+}
 
 // The meaning of an enumerator of the interface. `what` names its kind in the error for an unknown
 // one. Errors: INVALID_ARGUMENT with the field.

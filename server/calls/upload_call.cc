@@ -77,8 +77,7 @@ class UploadCall final : public UploadBase, public UploadWriters::Writer {
     if (request.has_config()) return TakeConfig(request.config());
     if (request.has_chunk()) {
       v1::VolumeChunk& chunk = *request.mutable_chunk();
-      std::optional<uint32_t> crc32c;
-      if (chunk.has_crc32c()) crc32c = chunk.crc32c();
+      const std::optional<uint32_t> crc32c = Crc32cOf(chunk);
       durable_jobs_.Append(facts_.tenant, upload_, chunk.offset(), std::move(*chunk.mutable_data()),
                            crc32c, Then([](UploadCall& it, uint64_t) { it.Read(); }));
     } else {

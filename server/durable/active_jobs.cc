@@ -8,6 +8,11 @@ namespace {
 
 // Limit of computed results that are not stored yet: they hold memory.
 constexpr int kMostUnstored = 16;
+// When all places have been held for this long, a tenant that has none need not wait for one. While
+// places change hands sooner, tenants take turns by weight.
+constexpr std::chrono::seconds kLongHeld(1);
+// Limit of jobs at the runner then, in places.
+constexpr int kMostByTurn = 2;
 
 }  // namespace
 
@@ -16,10 +21,18 @@ ActiveJob* ActiveJobs::Find(int64_t job) {
   return found == jobs_.end() ? nullptr : &found->second;
 }
 
+int ActiveJobs::CountOf(const std::string& tenant) const {
+  const auto found = of_tenant_.find(tenant);
+  return found == of_tenant_.end() ? 0 : found->second;
+}
+
 ActiveJob& ActiveJobs::Put(const JobRow& row) {
   ActiveJob* job = Find(row.number);
   if (job != nullptr) --in_state_[static_cast<size_t>(job->row.state)];
-  if (job == nullptr) job = &jobs_[row.number];
+  if (job == nullptr) {
+    job = &jobs_[row.number];
+    ++of_tenant_[row.tenant];
+  }
   Dequeue(*job);
   job->row = row;
   ++in_state_[static_cast<size_t>(row.state)];
@@ -30,6 +43,8 @@ void ActiveJobs::Forget(int64_t job) {
   const auto found = jobs_.find(job);
   if (found == jobs_.end()) return;
   --in_state_[static_cast<size_t>(found->second.row.state)];
+  const auto count = of_tenant_.find(found->second.row.tenant);
+  if (--count->second == 0) of_tenant_.erase(count);
   Dequeue(found->second);
   Detach(job);
   jobs_.erase(found);
@@ -175,22 +190,37 @@ ActiveJobs::Room ActiveJobs::RoomFor(int max_runs) const {
   const int at_runner = CountRunsFromFiles([](const ActiveRun& run) { return !run.computed; });
   if (unstored > kMostUnstored) return Room::kNone;
   if (at_runner < max_runs) return Room::kPlace;
-  const bool ahead = !next_.has_value() && at_runner < max_runs + pace_.Ahead();
-  return ahead ? Room::kAhead : Room::kNone;
+  if (next_.has_value()) return Room::kNone;
+  if (at_runner < max_runs + pace_.Ahead()) return Room::kAhead;
+  const RunPace::Clock::time_point now = RunPace::Clock::now();
+  const int long_held = CountRunsFromFiles([now](const ActiveRun& run) {
+    const bool fed = run.fed != RunPace::Clock::time_point();
+    return !run.computed && fed && now - run.fed >= kLongHeld;
+  });
+  const bool turn = long_held >= max_runs && at_runner < kMostByTurn * max_runs;
+  return turn ? Room::kTurn : Room::kNone;
 }
 
 // Suspects run one at a time: a crash then incriminates only one of them, and innocent ones are
 // soon cleared.
-auto ActiveJobs::MayBegin(const TenantTable& tenants) {
+auto ActiveJobs::MayBegin(const TenantTable& tenants, Room room) {
   queue_.SetLimits(tenants);
   queue_.SetAtWorkElsewhere(RunsOfTenants());
+  std::set<std::string> passed_over;
+  if (room == Room::kTurn) {
+    for (const auto& [pointer, run] : runs_) {
+      if (run.source == ActiveRun::Source::kFile && !run.computed) passed_over.insert(run.tenant);
+    }
+  }
+  queue_.PassOver(std::move(passed_over));
   const int suspects = CountRunsFromFiles([](const ActiveRun& run) { return run.crashes > 0; });
   return [suspects](const WaitingJob& job) { return !job.suspect || suspects == 0; };
 }
 
 bool ActiveJobs::HasNext(const TenantTable& tenants, int max_runs) {
-  if (RoomFor(max_runs) == Room::kNone) return false;
-  return next_.has_value() || queue_.Has(MayBegin(tenants));
+  const Room room = RoomFor(max_runs);
+  if (room == Room::kNone) return false;
+  return next_.has_value() || queue_.Has(MayBegin(tenants, room));
 }
 
 std::optional<ActiveJobs::Turn> ActiveJobs::TakeNext(const TenantTable& tenants, int max_runs) {
@@ -202,7 +232,7 @@ std::optional<ActiveJobs::Turn> ActiveJobs::TakeNext(const TenantTable& tenants,
                        job->run == nullptr && !job->place.has_value();
     if (waits) return Turn{.job = job->row};
   }
-  const auto next = queue_.Take(MayBegin(tenants));
+  const auto next = queue_.Take(MayBegin(tenants, room));
   if (!next.has_value()) return std::nullopt;
   queue_.Done(next->tenant);  // RunsOfTenants() counts it from here on
   ActiveJob& job = jobs_.at(next->item.job);

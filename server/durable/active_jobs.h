@@ -63,6 +63,7 @@ class ActiveJobs {
   // ---- Jobs
   size_t size() const { return jobs_.size(); }
   int Count(JobState state) const { return in_state_[static_cast<size_t>(state)]; }
+  int CountOf(const std::string& tenant) const;
   const std::map<int64_t, ActiveJob>& jobs() const { return jobs_; }
   ActiveJob* Find(int64_t job);  // null: none
   // Adds or replaces the job with its stored row, and takes it out of the queue.
@@ -96,6 +97,8 @@ class ActiveJobs {
   };
   // Whether TakeNext() would yield a job.
   bool HasNext(const TenantTable& tenants, int max_runs);
+  // Whether jobs wait, which time alone may let begin.
+  bool HasWaiting() const { return !queue_.empty(); }
   // nullopt if no job waits or there is no place now.
   std::optional<Turn> TakeNext(const TenantTable& tenants, int max_runs);
   // Puts a job that must not begin ahead back at the front.
@@ -106,16 +109,18 @@ class ActiveJobs {
   template <typename Which>
   int CountRunsFromFiles(Which which) const;
   std::map<std::string, int> RunsOfTenants() const;
-  enum class Room { kNone, kAhead, kPlace };
+  // kTurn: all places have been held for long, but a tenant that has none of them may begin a job.
+  enum class Room { kNone, kTurn, kAhead, kPlace };
   Room RoomFor(int max_runs) const;
   // Updates the queue's limits; yields the condition for a job to begin now.
-  auto MayBegin(const TenantTable& tenants);
+  auto MayBegin(const TenantTable& tenants, Room room);
   template <typename Volume>
   ActiveRun* FindJoinable(const std::string& tenant, const std::string& options, Volume is_equal);
 
   const bool shared_;
   std::map<int64_t, ActiveJob> jobs_;
   std::array<std::atomic<int>, 6> in_state_ = {};  // jobs, by JobState
+  std::map<std::string, int> of_tenant_;           // jobs, by tenant
   std::map<const Run*, ActiveRun> runs_;
   JobQueue queue_;
   RunPace pace_;

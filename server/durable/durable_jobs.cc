@@ -194,10 +194,22 @@ absl::Status DurableJobs::CheckFits(const JobRequest& request) const {
                    {.quota = "max_admitted_bytes"});
 }
 
-absl::Status DurableJobs::CheckRoomForJob() const {
-  if (active_.size() < static_cast<size_t>(options_.max_unfinished_jobs)) return absl::OkStatus();
-  return CallError(Reason::kQueueFull, absl::StrCat("all ", options_.max_unfinished_jobs,
-                                                    " places for jobs are taken"));
+absl::Status DurableJobs::CheckRoomForJob(const std::string& tenant) const {
+  const TenantTable tenants = options_.tenants();
+  const int all = static_cast<int>(active_.size()), own = active_.CountOf(tenant);
+  if (all >= options_.max_unfinished_jobs) {
+    return CallError(Reason::kQueueFull, absl::StrCat("all ", options_.max_unfinished_jobs,
+                                                      " places for jobs are taken"));
+  }
+  const int cap = tenants.Of(tenant).max_jobs;
+  const bool shares = cap == 0 && tenants.named.size() > 1;
+  const int half = (options_.max_unfinished_jobs - (all - own) + 1) / 2;
+  if (cap == 0 && !shares) return absl::OkStatus();
+  if (own < (shares ? half : cap)) return absl::OkStatus();
+  return CallError(Reason::kQueueFull,
+                   absl::StrCat(own, " durable jobs are receiving, waiting or running, the limit ",
+                                "for this tenant's jobs together is ", shares ? half : cap,
+                                shares ? ", half of what other tenants leave" : ""));
 }
 
 void DurableJobs::Apply(const Step& step) {

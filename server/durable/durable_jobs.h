@@ -232,7 +232,7 @@ class DurableJobs final : public RunObserver {
   static JobRequest RunnerRequest(JobRequest request, const JobRow& job);
   absl::Status CheckAdmitting() const;
   absl::Status CheckFits(const JobRequest& request) const;
-  absl::Status CheckRoomForJob() const;
+  absl::Status CheckRoomForJob(const std::string& tenant) const;
   // With the precision of the store, so that times do not change when read back.
   Time Now() const { return std::chrono::floor<std::chrono::microseconds>(options_.now()); }
 

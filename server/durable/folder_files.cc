@@ -62,10 +62,15 @@ absl::Status FolderFiles::TakeOver(JobStore& store) {
     return absl::OkStatus();
   }
   const auto is_known = [&known](const std::string& file) { return known.count(file) > 0; };
-  const bool strange =
-      !files.empty() && (!lock_.store_id().empty() || std::ranges::none_of(files, is_known));
+  // If all files are known, only the lock is damaged.
+  const bool strange = !std::ranges::all_of(files, is_known) &&
+                       (!lock_.store_id().empty() || std::ranges::none_of(files, is_known));
   if (strange && options_.unknown_data != "adopt") {
     return UnknownData(options_.data_directory, files.size());
+  }
+  if (!strange && !files.empty() && !lock_.store_id().empty()) {
+    options_.on_warning(absl::StrCat(options_.data_directory, "/lock was damaged and is repaired: ",
+                                     "the job store knows all files"));
   }
   return lock_.SetStoreId(id);
 }

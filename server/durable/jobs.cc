@@ -162,7 +162,7 @@ absl::Status DurableJobs::CheckJob(JobStore& store, Creating& creating) {
                            codec_.RequestOf(volume->declaration, creating.wanted.options));
   creating.options = codec_.OptionsFor(request, creating.wanted.options);
   BCCSKEL_RETURN_IF_ERROR(CheckFits(request));
-  return CheckRoomForJob();
+  return CheckRoomForJob(creating.tenant);
 }
 
 absl::Status DurableJobs::InsertJob(JobStore& store, JobRow job, Creating& creating) {

@@ -34,7 +34,11 @@ std::string DurableJobs::ResultKey(const std::string& volume_digest,
 void DurableJobs::Schedule() {
   // A draining server leaves the jobs to the rest of the fleet.
   if (scheduling_ || stopping_ || (!admitting_ && shared_)) return;
-  if (active_.HasNext(options_.tenants(), options_.max_runs)) BeginJobs();
+  if (active_.HasNext(options_.tenants(), options_.max_runs)) {
+    BeginJobs();
+  } else if (active_.HasWaiting()) {
+    retry_wanted_ = true;
+  }
 }
 
 Flow DurableJobs::BeginJobs() {

@@ -2,24 +2,13 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
-#include "core/digest/crc32c.h"
 #include "core/exec/status_macros.h"
 #include "server/durable/durable_jobs.h"
 #include "server/errors/call_error.h"
+#include "server/jobs/chunk_checksum.h"
 #include "server/jobs/names.h"
 
 namespace bccskel::server {
-namespace {
-
-absl::Status CheckChunk(const std::string& bytes, std::optional<uint32_t> crc32c) {
-  if (!crc32c.has_value() || *crc32c == Crc32c(bytes)) return absl::OkStatus();
-  return CallError(
-      Reason::kChunkChecksum,
-      absl::StrCat("the chunk's CRC-32C is ", Crc32c(bytes), ", the request states ", *crc32c),
-      {.field = "chunk.crc32c"});
-}
-
-}  // namespace
 
 // The state of CreateUpload().
 struct DurableJobs::Opening {
@@ -127,7 +116,7 @@ absl::Status DurableJobs::CheckSameUpload(JobStore& store, const Opening& openin
 }
 
 absl::Status DurableJobs::StoreReceivingJob(JobStore& store, Opening& opening) {
-  BCCSKEL_RETURN_IF_ERROR(CheckRoomForJob());
+  BCCSKEL_RETURN_IF_ERROR(CheckRoomForJob(opening.row.tenant));
   BCCSKEL_ASSIGN_OR_RETURN(opening.step, journal_.Insert(store, *opening.job));
   if (opening.run != nullptr) return absl::OkStatus();
   opening.run = std::make_shared<Run>(*this, opening.row.tenant, BeginOperation());

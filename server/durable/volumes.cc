@@ -8,6 +8,15 @@
 #include "server/jobs/names.h"
 
 namespace bccskel::server {
+namespace {
+
+absl::Status CheckDigest(const std::string& received, const std::optional<Sha256Digest>& stated) {
+  if (!stated.has_value() || stated->Hex() == received) return absl::OkStatus();
+  return InvalidVolume(absl::StrCat("the received bytes have the SHA-256 digest ", received,
+                                    ", the request states ", stated->Hex()));
+}
+
+}  // namespace
 
 // The state of FinishUpload().
 struct DurableJobs::Finishing {
@@ -27,6 +36,7 @@ Flow DurableJobs::FinishUpload(std::string tenant, std::string upload, uint64_t 
       const auto read = [&](JobStore& store) -> absl::StatusOr<VolumeInfo> {
         BCCSKEL_ASSIGN_OR_RETURN(const UploadRow row, store.Get<UploadRow>(tenant, upload));
         BCCSKEL_ASSIGN_OR_RETURN(const auto volume, store.Get<VolumeRow>(tenant, row.volume));
+        BCCSKEL_RETURN_IF_ERROR(CheckDigest(volume.blob_digest, sha256));
         return InfoOf(volume);
       };
       co_return done(co_await Read<VolumeInfo>(read));  // finished before
@@ -43,10 +53,8 @@ Flow DurableJobs::FinishUpload(std::string tenant, std::string upload, uint64_t 
     const bool superseded = shared_ && absl::IsNotFound(digest.status());
     co_return done(superseded ? Superseded(session) : digest.status());
   }
-  if (sha256.has_value() && *sha256 != *digest) {
-    const absl::Status error =
-        InvalidVolume(absl::StrCat("the received bytes have the SHA-256 digest ", digest->Hex(),
-                                   ", the request states ", sha256->Hex()));
+  const absl::Status error = CheckDigest(digest->Hex(), sha256);
+  if (!error.ok()) {
     co_return EndUpload(tenant, upload, JobState::kFailed, error,
                         [done, error](const absl::Status&) { done(error); });
   }

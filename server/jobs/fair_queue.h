@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -55,6 +56,9 @@ class FairQueue {
   void SetLimits(TenantTable limits) { limits_ = std::move(limits); }
   // Tenants' running items that were not taken from this queue.
   void SetAtWorkElsewhere(std::map<std::string, int> at_work) { elsewhere_ = std::move(at_work); }
+
+  // Tenants whose items must not be taken now.
+  void PassOver(std::set<std::string> tenants) { passed_over_ = std::move(tenants); }
 
   // `came`: when the item began to wait.
   Entry Push(const JobOrigin& origin, TimePoint came, Item item) {
@@ -130,6 +134,7 @@ class FairQueue {
   static bool Anything(const Item&) { return true; }
 
   bool MayStart(const std::string& name, const Tenant& tenant) const {
+    if (passed_over_.contains(name)) return false;
     const int most = limits_.Of(name).max_running;
     const auto elsewhere = elsewhere_.find(name);
     const int at_work = tenant.at_work + (elsewhere == elsewhere_.end() ? 0 : elsewhere->second);
@@ -164,6 +169,7 @@ class FairQueue {
   std::map<std::string, Tenant> tenants_;  // tenants with waiting or running items
   uint64_t time_ = 0;                      // virtual: a round is equally long for every tenant
   std::map<std::string, int> elsewhere_;
+  std::set<std::string> passed_over_;
   uint64_t next_number_ = 1;
   size_t size_ = 0;
 };

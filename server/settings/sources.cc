@@ -6,6 +6,7 @@
 
 #include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
 #include "absl/strings/str_replace.h"
 #include "absl/strings/str_split.h"
 
@@ -105,11 +106,9 @@ absl::StatusOr<GivenValues> ReadConfigFile(const std::string& path) {
   GivenValues given;
   try {
     for (const CLI::ConfigItem& item : CLI::ConfigTOML().from_config(file)) {
-      if (!item.parents.empty() || item.name == "++" || item.name == "--") {
-        return absl::InvalidArgumentError(
-            absl::StrCat(path, ": [", item.fullname(), "]: must hold no sections"));
-      }
-      given[item.name] = item.inputs;
+      const std::string section = absl::StrJoin(item.parents, ".");
+      if (section.empty() && item.name == "--") continue;  // the end of a section
+      given[section.empty() ? item.name : absl::StrCat("[", section, "]")] = item.inputs;
     }
   } catch (const std::exception& error) {
     return absl::InvalidArgumentError(absl::StrCat(path, ": ", error.what()));

@@ -56,7 +56,8 @@ std::string VariableOf(const std::string& setting);
 GivenValues ReadEnvironment(const std::vector<Setting>& settings,
                             const std::function<const char*(const char*)>& variable);
 
-// Reads lines such as `max-jobs = 4`: TOML without sections.
+// Reads lines such as `max-jobs = 4`: TOML. A section, which no setting is in, is given by its name
+// in brackets.
 // Errors: NOT_FOUND if the file cannot be read; INVALID_ARGUMENT for any other line.
 absl::StatusOr<GivenValues> ReadConfigFile(const std::string& path);
 

@@ -188,7 +188,10 @@ TEST(ServerDrain, CutsOffWhatTakesTooLong) {
   ASSERT_TRUE(call.Send(ConfigRequest(test::SmallTorusPlanes())));
   ASSERT_TRUE(call.Receive()->has_accepted());
   server->Drain();
-  EXPECT_EQ(call.Finish().code(), absl::StatusCode::kUnavailable);
+  const absl::Status end = call.Finish();
+  EXPECT_EQ(end.code(), absl::StatusCode::kUnavailable);
+  ASSERT_TRUE(wire::ErrorInfoOf(end).has_value()) << end;
+  EXPECT_EQ(wire::ErrorInfoOf(end)->reason(), "DRAINING");
   test::WaitUntilIdle(*server);
 }
 
@@ -209,7 +212,7 @@ TEST(ServerDrain, EndsWhileTheJobOfADurableCallIsComputed) {
   ASSERT_TRUE(call.Receive()->has_shell_progress());
   server->Drain();
   server.reset();
-  EXPECT_EQ(call.Finish().code(), absl::StatusCode::kUnavailable);
+  EXPECT_EQ(wire::ErrorInfoOf(call.Finish())->reason(), "DRAINING");
 }
 
 TEST(ServerDrain, AWatchedHealthStatusDoesNotHoldItUp) {

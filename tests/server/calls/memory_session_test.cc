@@ -10,6 +10,7 @@
 #include <thread>
 #include <utility>
 
+#include "proto/wire/error_details.h"
 #include "server/calls/services.h"
 #include "tests/server/support/declared_volume.h"
 #include "tests/server/support/raw_call.h"
@@ -134,6 +135,19 @@ TEST_F(MemorySessionTest, ASlowReaderHoldsUpNobodyAndHearsTheNewest) {
   EXPECT_EQ(newest, kShells);
   EXPECT_LT(heard, kShells / 2);
   EXPECT_TRUE(call.Finish().ok());
+}
+
+TEST_F(MemorySessionTest, AChunkWithAnotherChecksumEndsTheCallAndTheJob) {
+  test::RawCall call(channel_);
+  ASSERT_TRUE(call.Send(ConfigRequest(test::SmallTorusPlanes())));
+  auto chunk = test::ChunkRequest(0, "bytes");
+  chunk.mutable_chunk()->set_crc32c(1);
+  ASSERT_TRUE(call.Send(chunk));
+  const auto job = runner_.WaitForJob();
+  job->WaitForCancel();
+  EXPECT_FALSE(job->HasMoreBytes());
+  job->listener().OnEnd(absl::CancelledError("cancelled"));
+  EXPECT_EQ(wire::ErrorInfoOf(call.Finish())->reason(), "CHUNK_CHECKSUM");
 }
 
 TEST_F(MemorySessionTest, AFirstResponseWithOthersBehindItArrives) {

@@ -131,6 +131,25 @@ TEST_F(ActiveJobsTest, BeginsShortOnesAheadAndOneThatWaitsForAPlaceNext) {
   EXPECT_EQ(Next(jobs_), 3);
 }
 
+TEST_F(ActiveJobsTest, ATenantWithoutAPlaceNeedNotWaitForLongJobsOfOthers) {
+  for (int64_t number = 1; number <= 4; ++number) Queue(jobs_, Row(number));
+  for (const int64_t number : {1, 2}) {
+    EXPECT_EQ(Next(jobs_, 2), number);
+    Begin(jobs_, number, std::to_string(number)).fed = RunPace::Clock::now();
+  }
+  for (const int64_t number : {5, 6}) Queue(jobs_, Row(number, "lab"));
+  Queue(jobs_, Row(7, "school"));
+  EXPECT_FALSE(jobs_.HasNext(tenants_, 2)) << "they may end soon";
+  for (const int64_t number : {1, 2}) {
+    jobs_.FindRun(jobs_.Find(number)->run)->fed -= seconds(2);
+  }
+  EXPECT_EQ(Next(jobs_, 2), 5);
+  Begin(jobs_, 5, "5");
+  EXPECT_EQ(Next(jobs_, 2), 7) << "one for each tenant";
+  Begin(jobs_, 7, "7");
+  EXPECT_FALSE(jobs_.HasNext(tenants_, 2)) << "at most twice the places";
+}
+
 TEST_F(ActiveJobsTest, SuspectsStandBackAndRunOneAtATime) {
   JobRow first = Row(1), second = Row(2);
   first.crashes = second.crashes = 1;

@@ -100,6 +100,31 @@ TEST_F(DurableJobsTest, RefusesMoreJobsThanItHasPlaces) {
   EXPECT_EQ(ReasonOf(Create("clinic", JobOf(volume)).status()), Reason::kQueueFull);
 }
 
+TEST_F(DurableJobsTest, RefusesMoreJobsThanATenantMayHave) {
+  Close();
+  options_.max_unfinished_jobs = 10;
+  TenantTable tenants;
+  tenants.named["capped"].max_jobs = 2;
+  tenants.named["clinic"] = tenants.named["lab"] = {};
+  options_.tenants = [tenants] { return tenants; };
+  Open();
+  runner_->Hold();
+  const auto made = [&](const std::string& tenant) {
+    const std::string volume = Upload(tenant, "volume");
+    int jobs = 0;
+    absl::Status refused;
+    while (refused.ok() && jobs < 20) {
+      refused = Create(tenant, JobOf(volume)).status();
+      if (refused.ok()) ++jobs;
+    }
+    EXPECT_EQ(ReasonOf(refused), Reason::kQueueFull);
+    return jobs;
+  };
+  EXPECT_EQ(made("capped"), 2);
+  EXPECT_EQ(made("clinic"), 4) << "half of what the others leave";
+  EXPECT_EQ(made("lab"), 2);
+}
+
 TEST_F(DurableJobsTest, RefusesAJobThatCanNeverBeAdmitted) {
   Close();
   options_.max_job_bytes = 1000;

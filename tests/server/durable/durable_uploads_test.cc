@@ -47,6 +47,8 @@ TEST_F(DurableUploadsTest, MakesAVolumeOfChunksInOrder) {
   EXPECT_EQ(volume->blob_digest, Sha256Of("1234567890").Hex());
   EXPECT_THAT(*Find("clinic", volume->blob_digest), SizeIs(1));
   EXPECT_EQ(Finish("clinic", upload, 10)->name, volume->name) << "finishing again";
+  const absl::Status other = Finish("clinic", upload, 10, Sha256Of("0987654321")).status();
+  EXPECT_EQ(ReasonOf(other), Reason::kVolumeInvalid) << "these are other bytes";
   EXPECT_EQ(GetUpload("clinic", upload)->volume, volume->name);
   EXPECT_THAT(FilesIn("uploads"), IsEmpty());
   EXPECT_THAT(FilesIn("blobs"), SizeIs(1));

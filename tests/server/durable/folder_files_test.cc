@@ -106,6 +106,18 @@ TEST_F(FolderFilesTest, AnotherJobStoreIsRefusedUnlessItAdopts) {
   EXPECT_TRUE(IsThere(known));
 }
 
+TEST_F(FolderFilesTest, ADamagedLockIsRepairedByTheStoreThatKnowsAllFiles) {
+  Known("a");
+  ASSERT_TRUE(files_->TakeOver(*store_).ok());
+  std::fstream(folder_ / "lock", std::ios::in | std::ios::out) << "x";
+  Begin("jobs.db");
+  ASSERT_TRUE(files_->TakeOver(*store_).ok());
+  ASSERT_THAT(warnings_, SizeIs(1));
+  EXPECT_THAT(warnings_[0], HasSubstr("lock was damaged"));
+  Begin("jobs.db");
+  EXPECT_TRUE(files_->Join(*store_).ok());
+}
+
 TEST_F(FolderFilesTest, AFolderOfAnOlderServerBelongsToWhoKnowsAFile) {
   Unknown("b");
   EXPECT_EQ(files_->TakeOver(*store_).code(), absl::StatusCode::kFailedPrecondition);

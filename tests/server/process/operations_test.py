@@ -88,16 +88,18 @@ class SettingsTest(unittest.TestCase):
 
     def test_every_problem_is_named_with_its_value_and_its_limit(self):
         code, _, errors = check_config(
-            "--threads", "0", environment={"BCCSKEL_DRAIN_MS": "soon"},
-            file='max-queue = -1\nthredas = 2\ntokens = "/no/such/file"\n')
+            "--threads", "0", "--data-dir", "", environment={"BCCSKEL_DRAIN_MS": "soon"},
+            file='max-queue = -1\nthredas = 2\ntokens = "/no/such/file"\n[store]\nx = 1\ny = 2\n')
         self.assertEqual(code, 2)
         for complaint in ("--threads: 0: must be a number from 1 to 4096",
                           "BCCSKEL_DRAIN_MS: soon: must be a number from 0 to 86400000",
                           "max-queue: -1: must be a number from 0 to 1000000",
+                          "--data-dir: is empty: give a PATH or leave it out",
                           "thredas: there is no such setting",
+                          "[store]: the file must hold no sections; write its settings above",
                           "/no/such/file: cannot be read"):
             self.assertIn(complaint, errors)
-        self.assertEqual(len(errors.splitlines()), 5)
+        self.assertEqual(len(errors.splitlines()), 7)
 
 
 class ListenersTest(unittest.TestCase):
