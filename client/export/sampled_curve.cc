@@ -38,6 +38,11 @@ Curve Resampled(const Curve& curve, size_t steps) {
   return resampled;
 }
 
+double StepOf(const Placement& placement) {
+  const auto [least, most] = std::ranges::minmax(placement.spacing);
+  return std::max(2 * least, most / 8);
+}
+
 Curve Sampled(const SkeletonGraph& graph, const SkeletonEdge& edge,
               std::span<const WorldPoint> smooth, const CurveSampling& sampling) {
   const std::span<const SkeletonPoint> points = graph.PointsOf(edge);
@@ -48,7 +53,7 @@ Curve Sampled(const SkeletonGraph& graph, const SkeletonEdge& edge,
   }
   if (curve.size() < 2) return curve;
   const double most = kMostPerPoint * static_cast<double>(curve.size());
-  const double step = sampling.step.value_or(2 * std::ranges::min(graph.placement.spacing));
+  const double step = sampling.step.value_or(StepOf(graph.placement));
   const double wanted = std::round(WaysAlong(curve).back() / step);
   const size_t least = edge.source == edge.target ? kLeastStepsOfLoop : 1;
   return Resampled(curve, std::max(least, static_cast<size_t>(std::min(wanted, most))));

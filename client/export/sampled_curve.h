@@ -12,7 +12,7 @@ namespace bccskel::exporting {
 struct CurveSampling {
   // The distance between points along the smooth curve in world units, rounded so that it divides
   // each edge. 0: the unsmoothed lattice points. None: twice the smallest spacing, which hides the
-  // last ripples of the lattice.
+  // last ripples of the lattice, and at least an eighth of the largest.
   std::optional<double> step = std::nullopt;
 };
 

@@ -41,6 +41,12 @@ inline Coordinates PlaceOf(LatticePoint p, const AxisScale& scale) {
   return {scale[0] * p.x, scale[1] * p.y, scale[2] * p.z};
 }
 
+// Factor for the steps of walks through the object. Where an axis is more than 16 times as long as
+// the shortest, steps of a unit would only repeat points.
+inline double CoarsenessOf(const AxisScale& scale) {
+  return std::max(1.0, std::ranges::max(scale) / 16);
+}
+
 // Euclidean distance in lattice units.
 inline double StraightDistance(LatticePoint a, LatticePoint b, const AxisScale& scale) {
   const double x = scale[0] * (a.x - b.x), y = scale[1] * (a.y - b.y), z = scale[2] * (a.z - b.z);

@@ -26,7 +26,7 @@ constexpr double kStride = 8;          // places in a width
 constexpr size_t kNormalReach = 4;     // points on either side
 constexpr double kWalkWidths = 1;      // so long before its end the limb is walked along
 constexpr double kWalkSlope = 0.85;    // no corners, so more: leaves taper by up to this
-constexpr double kWalkStep = 2;        // lattice units
+constexpr double kWalkStep = 2;        // lattice units, times CoarsenessOf()
 constexpr size_t kHeadingSteps = 12;   // the direction is that of the last steps,
 constexpr size_t kLeastHeading = 6;    // if there are at least this many
 constexpr double kMostWiden = 1.3;     // wider parts are not the limb
@@ -54,6 +54,7 @@ double MeritOf(double width, const Coordinates& out, const Coordinates& way) {
 
 FlatEnd::FlatEnd(const Volume& object, const ExactRadius& radius, FirmDepth& depth)
     : scale_(AxisScaleOf(object.placement())),
+      walk_step_(kWalkStep * CoarsenessOf(scale_)),
       radius_(radius),
       sheet_(object, radius),
       depth_(depth) {}
@@ -97,7 +98,7 @@ std::vector<Coordinates> FlatEnd::MiddleFrom(Walker walker, double widest, doubl
   size_t best = 0;
   double most = -std::numeric_limits<double>::infinity(), gone = 0;
   while (gone < longest && Step(walker)) {
-    gone += kWalkStep;
+    gone += walk_step_;
     const auto [width, ahead] = MoveToMiddle(walker, widest);
     places.push_back(walker.place);
     const size_t back = std::min(places.size() - 1, kHeadingSteps);
@@ -122,7 +123,7 @@ bool FlatEnd::Step(Walker& walker) {
   };
   if (!in_plane()) return false;
   const std::optional<Coordinates> next =
-      sheet_.MiddleNear(Sum(walker.place, kWalkStep, walker.way), walker.normal);
+      sheet_.MiddleNear(Sum(walker.place, walk_step_, walker.way), walker.normal);
   if (!next.has_value()) return false;
   walker.place = *next;
   walker.normal = sheet_.NormalNear(walker.place, walker.normal);
@@ -137,9 +138,9 @@ FlatEnd::Sides FlatEnd::MoveToMiddle(Walker& walker, double widest) {
   const double to_left = sheet_.WayToSide(place, way, left, normal, longest);
   const double to_right = sheet_.WayToSide(place, way, right, normal, longest);
   const double width = (to_left + to_right) / 2;
-  const double ahead = sheet_.WayToRim(place, way, normal, width + kWalkStep);
+  const double ahead = sheet_.WayToRim(place, way, normal, width + walk_step_);
   if (ahead > width) {
-    const double aside = std::clamp((to_left - to_right) / 2, -kWalkStep / 2, kWalkStep / 2);
+    const double aside = std::clamp((to_left - to_right) / 2, -walk_step_ / 2, walk_step_ / 2);
     walker.place = sheet_.MiddleNear(Sum(place, aside, left), normal).value_or(place);
   }
   return {width, ahead};

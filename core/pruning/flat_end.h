@@ -66,6 +66,7 @@ class FlatEnd {
   Sides MoveToMiddle(Walker& walker, double widest);
 
   const AxisScale scale_;
+  const double walk_step_;  // lattice units
   ExactRadius radius_;
   FlatSheet sheet_;
   FirmDepth& depth_;

@@ -6,7 +6,7 @@
 namespace bccskel {
 namespace {
 
-constexpr double kStep = 1.5;               // of a way, lattice units
+constexpr double kStep = 1.5;               // of a way, lattice units, times CoarsenessOf()
 constexpr double kMostOff = 2;              // farther off lies another sheet
 constexpr double kThicknessStep = 0.5;      // lattice units
 constexpr double kMostSheetThick = 24;      // to either side
@@ -26,7 +26,10 @@ constexpr std::array<std::array<double, 2>, 8> kSpreadTurns = {{{1, 0},
 }  // namespace
 
 FlatSheet::FlatSheet(const Volume& object, const ExactRadius& radius)
-    : scale_(AxisScaleOf(object.placement())), bricks_(object), radius_(radius) {}
+    : scale_(AxisScaleOf(object.placement())),
+      step_(kStep * CoarsenessOf(scale_)),
+      bricks_(object),
+      radius_(radius) {}
 
 double FlatSheet::WidthAt(const Coordinates& place, const Coordinates& normal, double longest) {
   double width = longest;
@@ -53,17 +56,17 @@ double FlatSheet::WayToSide(const Coordinates& place, const Coordinates& way,
 
 double FlatSheet::WayToRim(Coordinates place, const Coordinates& way, const Coordinates& normal,
                            double longest) {
-  for (double length = kStep; length < longest; length += kStep) {
-    place = Sum(place, kStep, way);
+  for (double length = step_; length < longest; length += step_) {
+    place = Sum(place, step_, way);
     if (InObject(place)) continue;
     const std::optional<Coordinates> near = InSheetNear(place, normal);
     if (near.has_value()) {
       place = *near;
       continue;
     }
-    const Coordinates between = Sum(place, -kStep / 2, way);
+    const Coordinates between = Sum(place, -step_ / 2, way);
     const bool in_sheet = InObject(between) || InSheetNear(between, normal).has_value();
-    return length - (in_sheet ? 0.25 : 0.75) * kStep;
+    return length - (in_sheet ? 0.25 : 0.75) * step_;
   }
   return longest;
 }

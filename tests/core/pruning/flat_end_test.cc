@@ -204,5 +204,16 @@ TEST(FlatEnd, LeavesThePlateItsCorners) {
   for (const Vector& end : ends) EXPECT_GT(Length(end), 65);
 }
 
+// A ball that an error of units has turned into a disk ten billion times as wide as thick.
+TEST(FlatEnd, IsFoundInBoundedTimeWhateverTheSpacings) {
+  const Volume ball = test::VolumeWhere(
+      {24, 24, 24},
+      [](int32_t x, int32_t y, int32_t z) { return std::hypot(x - 24, y - 24, z - 24) < 20; },
+      {.spacing = {1e-10, 1, 1}});
+  const auto result = Skeletonize(ball, {}, {});
+  ASSERT_TRUE(result.ok()) << result.status();
+  EXPECT_TRUE(result->certificate.TopologyKept());
+}
+
 }  // namespace
 }  // namespace bccskel::flat_end
