@@ -20,7 +20,8 @@ class FlatSheet {
 
   // The shortest of 16 lines across the normal; at most `longest`.
   double WidthAt(const Coordinates& place, const Coordinates& normal, double longest);
-  // The distance to the rim, within half a unit (times CoarsenessOf()); `longest` if the rim is farther away.
+  // The distance to the rim, within half a unit, times CoarsenessOf(); `longest` if the rim is
+  // farther away.
   double WayToRim(Coordinates place, const Coordinates& way, const Coordinates& normal,
                   double longest);
   // The shortest of seven lines between `way`, `side` and the reverse of `way`: the distance to the
