@@ -20,6 +20,7 @@
 #include "client/view/display_surface.h"
 #include "client/view/render/subject_picture.h"
 #include "core/exec/status_macros.h"
+#include "core/import/mesh/mesh_file.h"
 #include "core/io/volume_file.h"
 #include "core/labels/convert_label.h"
 #include "core/labels/edge_image.h"
@@ -204,20 +205,25 @@ absl::Status CheckRoot(const SkeletonizeArguments& arguments, const SkeletonGrap
   return CheckRootChoice(*arguments.root, graph);
 }
 
+exporting::World WorldOfInput(const Object& object, const std::string& input) {
+  if (object.image.has_value()) return WorldOf(object.image->info);
+  return IsGltfPath(input) ? exporting::World{.axes = exporting::kYUp, .unit = {}}
+                           : exporting::World();
+}
+
 absl::StatusOr<std::vector<WrittenFile>> WriteOutputs(const SkeletonizeArguments& arguments,
                                                       const Object& object,
                                                       const Computed& computed,
                                                       const exec::Context& context) {
-  const exporting::Subject subject = {
-      computed.result,
-      object.volume,
-      std::string(FileName(arguments.input)),
-      context,
-      computed.shells.has_value() ? &*computed.shells : nullptr,
-      arguments.root,
-      object.image.has_value() ? WorldOf(object.image->info) : exporting::World(),
-      arguments.swc,
-      view::DrawSubject};
+  const exporting::Subject subject = {computed.result,
+                                      object.volume,
+                                      std::string(FileName(arguments.input)),
+                                      context,
+                                      computed.shells.has_value() ? &*computed.shells : nullptr,
+                                      arguments.root,
+                                      WorldOfInput(object, arguments.input),
+                                      arguments.swc,
+                                      view::DrawSubject};
   std::vector<WrittenFile> files;
   for (const std::string& path : arguments.outputs) {
     BCCSKEL_RETURN_IF_ERROR(context.StopStatus());

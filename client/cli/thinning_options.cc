@@ -36,6 +36,11 @@ void AddPreset(CLI::App& command, SkeletonizeOptions& options) {
       ->option_text(CLI::detail::join(names, "|"));
 }
 
+// That of a preset is a significance.
+void DropPresetsThreshold(const CLI::App& command, PruningOptions& pruning) {
+  if (command.count("--pruning-threshold") == 0) pruning.threshold = 0;
+}
+
 void AddPreparing(CLI::App& command, PreparingOptions& preparing) {
   command
       .add_option("--denoise", preparing.denoise_passes,
@@ -68,9 +73,13 @@ void AddDistance(CLI::App& command, DistanceKind& distance) {
 }
 
 void AddPruning(CLI::App& command, PruningOptions& pruning) {
-  AddChoice<PruningRule>(command, "--pruning", pruning.rule,
-                         "Which branches with a free end to remove (default significance)",
-                         Choices(kPruningWords));
+  AddChoice<PruningRule>(
+      command, "--pruning",
+      [&](PruningRule rule) {
+        pruning.rule = rule;
+        if (rule != PruningRule::kSignificance) DropPresetsThreshold(command, pruning);
+      },
+      "Which branches with a free end to remove (default significance)", Choices(kPruningWords));
   command
       .add_option(
           "--pruning-threshold", pruning.threshold,
@@ -103,13 +112,19 @@ void AddBorder(CLI::App& command, Border& border) {
       Choices(std::span(kBorderWords).first<2>()));
 }
 
-void AddThinning(CLI::App& command, ThinningOptions& thinning) {
+void AddThinning(CLI::App& command, SkeletonizeOptions& options) {
+  ThinningOptions& thinning = options.thinning;
   AddChoice<ThinningMethod>(command, "--method", thinning.method,
                             "How points are chosen for removal (default symmetric)",
                             Choices(kMethodWords));
-  AddChoice<SkeletonKind>(command, "--kind", thinning.kind,
-                          "What to keep; all kinds except curve (default) need --method symmetric",
-                          Choices(kKindWords));
+  AddChoice<SkeletonKind>(
+      command, "--kind",
+      [&command, &options](SkeletonKind kind) {
+        options.thinning.kind = kind;
+        if (kind != SkeletonKind::kCurve) DropPresetsThreshold(command, options.pruning);
+      },
+      "What to keep; all kinds except curve (default) need --method symmetric",
+      Choices(kKindWords));
   AddChoice<StubblePolicy>(
       command, "--stubble", thinning.stubble,
       "Which stubble, the one-point twigs of thinning, to remove (default keep-two)",
@@ -137,7 +152,7 @@ void AddSkeletonOptions(CLI::App& command, SkeletonizeOptions& options,
   AddPruning(command, options.pruning);
   AddJunctions(command, options.junction_reach);
   AddBorder(command, options.border);
-  AddThinning(command, options.thinning);
+  AddThinning(command, options);
   AddRoot(command, root);
 }
 

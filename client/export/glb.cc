@@ -219,13 +219,16 @@ class Scene {
   }
 
   // Called once: moves the texts that Add() and AddNode() have written.
-  std::string TakeJson(const WorldPoint& center) {
+  std::string TakeJson(const WorldPoint& center, bool y_up) {
     Text text;
     text.Add("{\"asset\":{\"version\":\"2.0\",\"generator\":\"bccskel\"},\n\"scene\":0,\"scenes\":",
-             "[{\"nodes\":[0]}],\n\"nodes\":[\n{\"name\":\"skeleton\",\"translation\":[", center[0],
-             ',', center[2], ',', -center[1],
-             // A quarter turn about x: z points up.
-             "],\"rotation\":[-0.7071067811865476,0,0,0.7071067811865476]");
+             "[{\"nodes\":[0]}],\n\"nodes\":[\n{\"name\":\"skeleton\",\"translation\":[");
+    if (y_up) {
+      text.Add(center[0], ',', center[1], ',', center[2], ']');
+    } else {  // a quarter turn about x: z points up
+      text.Add(center[0], ',', center[2], ',', -center[1],
+               "],\"rotation\":[-0.7071067811865476,0,0,0.7071067811865476]");
+    }
     if (meshes_ > 0) text.Add(",\"children\":[");
     for (size_t n = 1; n <= meshes_; ++n) text.Add(n == 1 ? "" : ",", n);
     text.Add(meshes_ > 0 ? "]}" : "}", std::move(node_text_).Take(), "\n]");
@@ -299,7 +302,8 @@ void AppendHead(std::string& file, size_t bytes, uint32_t type) {
 
 }  // namespace
 
-absl::StatusOr<std::string> GlbBytes(const SkeletonGraph& graph, const GraphContext& context) {
+absl::StatusOr<std::string> GlbBytes(const SkeletonGraph& graph, const GraphContext& context,
+                                     const World& world) {
   const WorldPoint center = CenterOf(graph);
   const TubeMaker maker(center, graph);
   Scene scene;
@@ -311,7 +315,7 @@ absl::StatusOr<std::string> GlbBytes(const SkeletonGraph& graph, const GraphCont
     scene.Add(maker.Around(curve));
     scene.AddNode(BranchName(context.labels, n), FiguresOf(graph, edge, smooth));
   }
-  std::string json = scene.TakeJson(center);
+  std::string json = scene.TakeJson(center, world.axes == kYUp);
   json.resize(RoundedUp(json.size()), ' ');
   const size_t binary = scene.vertices().size() + scene.corners().size();  // words alone
   constexpr size_t kHead = 8;

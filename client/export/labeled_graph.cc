@@ -79,7 +79,7 @@ absl::StatusOr<std::string> BytesOf(SkeletonFormat format, const LabeledSkeleton
     case SkeletonFormat::kMarkups:
       return skeletons.Markups();
     case SkeletonFormat::kGlb:
-      return GlbBytes(skeletons.graph(), skeletons.Context());
+      return GlbBytes(skeletons.graph(), skeletons.Context(), skeletons.world());
     default:
       return absl::InvalidArgumentError("this format holds one label");
   }

@@ -131,7 +131,7 @@ std::optional<absl::StatusOr<Document>> ComposeGraph(SkeletonFormat format,
       return Document{std::move(markups.text), std::move(markups.note)};
     }
     case SkeletonFormat::kGlb:
-      return WithoutNote(GlbBytes(graph, context));
+      return WithoutNote(GlbBytes(graph, context, world));
     default:
       return std::nullopt;
   }

@@ -6,9 +6,12 @@
 
 namespace bccskel::exporting {
 
+// Axes of glTF files: y points up.
+inline constexpr char kYUp[] = "y-up";
+
 // The meaning of coordinates as stated by the input. Empty: unknown.
 struct World {
-  std::string axes;  // where they point: "RAS", "LPS"
+  std::string axes;  // where they point: "RAS", "LPS", kYUp
   std::string unit;  // of coordinates, radii and lengths: "mm", "um", ...
 };
 

@@ -82,6 +82,10 @@ absl::Status CheckGrid(const LatticeExtent& extent, const Placement& placement) 
                           extent.ny, extent.nz, kMaxExtentCells));
     }
   }
+  return CheckPlacement(placement);
+}
+
+absl::Status CheckPlacement(const Placement& placement) {
   for (double spacing : placement.spacing) {
     if (!(spacing > 0) || !std::isfinite(spacing)) {
       return absl::InvalidArgumentError(

@@ -101,7 +101,9 @@ class Volume {
   LazyBrickNeighbors neighbors_;
 };
 
-// OK when each axis has 1..kMaxExtentCells cells and the spacing is finite and positive.
+// OK when all numbers are finite, spacings positive, and the axes of length 1 and perpendicular.
+absl::Status CheckPlacement(const Placement& placement);
+// The same, and each axis has 1..kMaxExtentCells cells.
 absl::Status CheckGrid(const LatticeExtent& extent, const Placement& placement);
 
 // Collects points and words in any order.

@@ -74,6 +74,8 @@ absl::StatusOr<Placement> FromMessage(const v1::Placement& message, const std::s
   if (smallest <= 0) {
     return InvalidField(field + ".spacing", absl::StrCat(smallest, ", must be positive"));
   }
+  const absl::Status checked = CheckPlacement(p);
+  if (!checked.ok()) return InvalidField(field, std::string(checked.message()));
   return p;
 }
 

@@ -75,8 +75,7 @@ std::optional<MeshFormat> SniffContent(std::string_view bytes) {
   if (IsFreeSurfer(bytes)) return MeshFormat::kFreeSurfer;
   if (HasBinaryStlLength(bytes)) return MeshFormat::kBinaryStl;
   const std::string_view word = FirstWord(bytes);
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  if (word.starts_with('<') || word.starts_with(kByteOrderMark)) return SniffXml(bytes);
+  if (word.starts_with('<')) return SniffXml(bytes);
   if (word.starts_with('{')) return MeshFormat::kGltf;
   if (IsOffKeyword(word)) return MeshFormat::kOff;
   if (EqualsIgnoringCase(word, "solid")) return MeshFormat::kAsciiStl;
@@ -141,6 +140,11 @@ absl::StatusOr<TriangleMesh> ChooseAndParse(std::string_view bytes, std::string_
   if (bytes.empty() && EndingOf(name) != "obj") {
     return absl::InvalidArgumentError("the file is empty");
   }
+  // Programs on Windows write it before text, in which it is no part of the first word.
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (bytes.starts_with(kByteOrderMark) && !HasBinaryStlLength(bytes)) {
+    bytes.remove_prefix(kByteOrderMark.size());
+  }
   BCCSKEL_ASSIGN_OR_RETURN(const MeshFormat format, ChooseFormat(bytes, name));
   return ParseAs(format, bytes, folder, limits);
 }
@@ -168,6 +172,11 @@ bool BeginsLikeFreeSurfer(const std::string& path) {
 }
 
 }  // namespace
+
+bool IsGltfPath(const std::string& path) {
+  const std::string ending = EndingOf(path);
+  return ending == "glb" || ending == "gltf";
+}
 
 bool IsMeshPath(const std::string& path) {
   return std::ranges::find(kMeshEndings, EndingOf(path)) != kMeshEndings.end() ||

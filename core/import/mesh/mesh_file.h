@@ -14,6 +14,8 @@ namespace bccskel {
 // .gii, each also with .gz; and for a file that begins like a surface of FreeSurfer, whose names
 // have no ending of their own.
 bool IsMeshPath(const std::string& path);
+// True when the name ends like a glTF file, whose y axis points up.
+bool IsGltfPath(const std::string& path);
 
 // Reads OBJ, STL (text, binary), PLY (text, both byte orders), OFF (also COFF and the like), glTF
 // 2.0 (.glb, .gltf and its buffers beside it), polygon data of VTK (legacy and XML) or surfaces of

@@ -30,7 +30,7 @@ inline constexpr std::array<Shape, 9> kShapes = {Shape::kBall, Shape::kTorus, Sh
                                                  Shape::kKnot, Shape::kBox,   Shape::kHollowBall};
 
 inline constexpr uint64_t kMinShapePoints = 5'000;
-inline constexpr uint64_t kMaxShapePoints = 100'000'000'000;
+inline constexpr uint64_t kMaxShapePoints = uint64_t{1} << 33;
 inline constexpr double kMaxShapeNoise = 0.1;
 
 struct ShapeOptions {

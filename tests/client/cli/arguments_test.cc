@@ -87,6 +87,11 @@ TEST(ArgumentsTest, OptionsOverruleTheirPresetWhereverTheyStand) {
             neuron.preparing);
   EXPECT_EQ(skeletonize({"--preset", "cad", "--pruning-threshold", "3"}).pruning.threshold, 3);
   const Parsed unknown = Parse("skeletonize a.off -o a.swc --preset cat");
+  for (const char* other : {"--pruning=persistence", "--kind=surface"}) {
+    EXPECT_EQ(skeletonize({"--preset", "cad", other}).pruning.threshold, 0) << "not a significance";
+    EXPECT_EQ(skeletonize({other, "--pruning-threshold", "3", "--preset", "cad"}).pruning.threshold,
+              3);
+  }
   EXPECT_EQ(unknown.code(), ExitCode::kUsage);
   EXPECT_THAT(unknown.err, HasSubstr("--preset cat: must be one of neuron, vessels"));
 }

@@ -81,6 +81,15 @@ TEST(GlbTest, KeepsItsFigureFarFromTheOrigin) {
   }
 }
 
+TEST(GlbTest, TurnsTheWorldUnlessItsYPointsUp) {
+  const SkeletonGraph graph = Lollipop();
+  const Json z_up = SceneOf(*GlbBytes(graph))["nodes"][0];
+  const Json y_up = SceneOf(*GlbBytes(graph, {}, {.axes = kYUp, .unit = {}}))["nodes"][0];
+  EXPECT_TRUE(z_up.contains("rotation"));
+  EXPECT_FALSE(y_up.contains("rotation"));
+  EXPECT_EQ(z_up["translation"][1], y_up["translation"][2]);
+}
+
 TEST(GlbTest, NothingIsAnEmptyScene) {
   EXPECT_EQ(SceneOf(*GlbBytes(SkeletonGraph()))["nodes"].size(), 1);
 }

@@ -149,6 +149,12 @@ std::vector<Fault> DeclarationFaults() {
          volume.mutable_placement()->mutable_spacing()->Resize(2, 1.0);
        }),
        StatusCode::kInvalidArgument, "FIELD_INVALID", "config.volume.placement.spacing"},
+      {"SkewAxes", Declaration([](auto& volume) {
+         auto& direction = *volume.mutable_placement()->mutable_direction();
+         direction.Resize(9, 0);
+         for (const int n : {0, 1, 4, 8}) direction.Set(n, 1);
+       }),
+       StatusCode::kInvalidArgument, "FIELD_INVALID", "config.volume.placement"},
       {"NoSize", Declaration([](auto& volume) { volume.clear_size_bytes(); }),
        StatusCode::kInvalidArgument, "FIELD_INVALID", "config.volume.size_bytes"},
       {"WrongSizeForTheExtent", Declaration([](auto& volume) { volume.set_size_bytes(1 << 30); }),

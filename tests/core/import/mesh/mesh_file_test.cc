@@ -76,6 +76,17 @@ TEST(MeshFile, ReadsObjWithContinuedLinesRelativeAndSlashedIndices) {
                                                       TriangleMesh::Triangle{0, 2, 3}));
 }
 
+TEST(MeshFile, SkipsAByteOrderMark) {
+  const std::string mark = "\xEF\xBB\xBF";
+  const auto obj = ParseMesh(mark + "v 1 2 3\nv 0 1 0\nv 0 0 1\nf 1 2 3\n", "a.obj");
+  ASSERT_TRUE(obj.ok()) << obj.status();
+  ASSERT_EQ(obj->vertices.size(), 3u);
+  EXPECT_EQ(obj->vertices[0], (std::array<double, 3>{1, 2, 3}));
+  const auto off = ParseMesh(mark + "OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "a.off");
+  ASSERT_TRUE(off.ok()) << off.status();
+  EXPECT_EQ(off->triangles.size(), 1u);
+}
+
 TEST(MeshFile, ReadsOffWithCountsOnTheFirstLineCommentsAndColors) {
   const auto mesh = ParseMesh(
       "# x\nSTCOFF 3 1 0 # counts\n\n0 0 0 9 9 9\n1 0 0 9\n#\n0 1 0\n3 0 1 2 9 9 9\n", "a.off");
