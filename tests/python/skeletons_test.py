@@ -74,8 +74,20 @@ class SkeletonsTest(harness.TestCase):
         ordered = bccskel.skeletonize(self.mask, spacing=(2, 1, 1), root=tuple(near))
         self.assertEqual(ordered.order["roots"][ordered.node_components[0]], 0)
         self.assertEqual(ordered.order["root_distance"][0], 0)
-        self.assertEqual(sorted(ordered.to_pandas()["generation"]), [0, 0, 1, 1])
+        self.assertEqual(sorted(ordered.to_pandas()["generation"].dropna()), [0, 1, 1])
         self.assertIn("root_distance", ordered.to_networkx().nodes[0])
+
+    def test_edges_that_close_loops_have_no_place_in_the_trees(self):
+        ordered = bccskel.skeletonize(self.mask, root="thickest-end")
+        closes = ordered.order["proximal"] < 0
+        self.assertEqual(closes.sum(), 1)
+        table, edges = ordered.to_pandas(), ordered.to_networkx().edges(keys=True, data=True)
+        for name in ("generation", "strahler"):
+            numpy.testing.assert_array_equal(numpy.isnan(ordered.order[name]), closes)
+            numpy.testing.assert_array_equal(table[name].isna(), closes)
+            for *_, number, facts in edges:
+                self.assertEqual(name in facts, not closes[number])
+                self.assertIsInstance(facts.get(name, 0), int)
 
     def test_a_root_outside_the_object_is_warned_of(self):
         with self.assertWarnsRegex(UserWarning, "the root is far from the skeleton, .* from the "

@@ -151,7 +151,7 @@ class Skeleton:
     def order(self) -> Optional[dict]:
         """Where `root` was given, the graph as trees: of components 'roots', of nodes 'parent' (-1
         for none) and 'root_distance', of edges 'proximal' (-1 where one closes a loop),
-        'generation' and 'strahler'."""
+        'generation' and 'strahler' (NaN where one closes a loop)."""
         return self._outcome.order()
 
     @functools.cached_property
@@ -219,7 +219,7 @@ class Skeleton:
                              for n, row in enumerate(zip(*columns.values())))
         figures = {name: values.tolist() for name, values in self._edges["figures"].items()}
         if self.order is not None:
-            figures.update({name: self.order[name].tolist()
+            figures.update({name: [int(n) if math.isfinite(n) else n for n in self.order[name]]
                             for name in ("generation", "strahler")})
         for n, (source, target) in enumerate(self.edges.tolist()):
             facts = {name: values[n] for name, values in figures.items()

@@ -195,9 +195,13 @@ py::object OrderOf(const Outcome& outcome) {
   dict["parent"] = ArrayOf(order.nodes, [&](const NodeOrder& n) { return number(n.parent); });
   dict["root_distance"] = ArrayOf(order.nodes, [](const NodeOrder& n) { return n.root_distance; });
   dict["proximal"] = ArrayOf(order.edges, [&](const EdgeOrder& e) { return number(e.proximal); });
-  dict["generation"] =
-      ArrayOf(order.edges, [&](const EdgeOrder& e) { return number(e.generation); });
-  dict["strahler"] = ArrayOf(order.edges, [&](const EdgeOrder& e) { return number(e.strahler); });
+  const auto of_tree = [&order](uint32_t EdgeOrder::*figure) {
+    return ArrayOf(order.edges, [figure](const EdgeOrder& e) {
+      return e.proximal == kNoRow ? std::numeric_limits<double>::quiet_NaN() : e.*figure;
+    });
+  };
+  dict["generation"] = of_tree(&EdgeOrder::generation);
+  dict["strahler"] = of_tree(&EdgeOrder::strahler);
   return dict;
 }
 
