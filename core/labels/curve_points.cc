@@ -99,6 +99,15 @@ std::optional<FoundVoxel> FirstVoxel(const Vector& a, const Vector& b, const Run
   return std::nullopt;
 }
 
+std::array<int32_t, 3> NearestOfGrid(const Vector& at, const MaskGrid& grid) {
+  const std::array<int32_t, 3> size = {grid.nx, grid.ny, grid.nz};
+  std::array<int32_t, 3> voxel = {};
+  for (size_t axis = 0; axis < 3; ++axis) {
+    voxel[axis] = static_cast<int32_t>(std::clamp(std::round(at[axis]), 0.0, size[axis] - 1.0));
+  }
+  return voxel;
+}
+
 }  // namespace
 
 absl::StatusOr<std::vector<CurvePoint>> CurvePointsOf(const SkeletonGraph& graph,
@@ -114,6 +123,21 @@ absl::StatusOr<std::vector<CurvePoint>> CurvePointsOf(const SkeletonGraph& graph
     }
   }
   return points;
+}
+
+absl::StatusOr<std::vector<std::array<int32_t, 3>>> NodeVoxels(const SkeletonGraph& graph,
+                                                               const MaskGrid& grid,
+                                                               const RunLookup& lookup) {
+  BCCSKEL_ASSIGN_OR_RETURN(const LatticeOnGrid placed,
+                           PlaceOnGrid(graph.placement, grid.placement));
+  std::vector<std::array<int32_t, 3>> voxels;
+  voxels.reserve(graph.nodes.size());
+  for (const SkeletonNode& node : graph.nodes) {
+    const Vector at = placed.At(node.at.point);
+    const auto found = FirstVoxel(at, at, lookup);
+    voxels.push_back(found.has_value() ? found->first : NearestOfGrid(at, grid));
+  }
+  return voxels;
 }
 
 std::optional<std::array<int32_t, 3>> SharedVoxel(const CurvePoint& a, const CurvePoint& b,

@@ -29,6 +29,13 @@ absl::StatusOr<std::vector<CurvePoint>> CurvePointsOf(const SkeletonGraph& graph
                                                       const MaskGrid& grid,
                                                       const RunLookup& lookup);
 
+// The voxel of each node: the first object voxel, as for curve points; where there is none, the
+// grid's voxel next to the node.
+// Errors: INVALID_ARGUMENT as above.
+absl::StatusOr<std::vector<std::array<int32_t, 3>>> NodeVoxels(const SkeletonGraph& graph,
+                                                               const MaskGrid& grid,
+                                                               const RunLookup& lookup);
+
 // The first object voxel, in the order of z, y, x, that both points lie in or beside: their places
 // are at most half a voxel from its center along each axis, or one voxel if there is none.
 std::optional<std::array<int32_t, 3>> SharedVoxel(const CurvePoint& a, const CurvePoint& b,

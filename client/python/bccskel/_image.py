@@ -113,11 +113,6 @@ class Frame:
     def zyx(self, array: np.ndarray) -> np.ndarray:
         return array.transpose([self.axes.index(axis) for axis in "zyx"])
 
-    def voxels(self, points: np.ndarray) -> np.ndarray:
-        """Indices of the voxels that contain points in the world, shape (n, 3)."""
-        offsets = (points - self.origin) @ np.linalg.inv(self.direction).T
-        return np.rint(offsets / self.spacing).astype(np.int64)
-
 
 def _three(name: str, value: Any) -> np.ndarray:
     """Three finite numbers from three or one."""

@@ -232,8 +232,9 @@ class Skeleton:
     def to_pandas(self, separator: str = "-") -> pandas.DataFrame:
         """A row for each branch, with the columns of `skan.summarize()` and more.
 
-        mean-pixel-value and stdev-pixel-value are those of the radius. Of a mesh there is no
-        image-coord.
+        mean-pixel-value and stdev-pixel-value are those of the radius. image-coord is a voxel
+        of the object; of samplings and labels that a server has computed, the nearest one of the
+        image. Of a mesh there is no image-coord.
 
         >>> import numpy as np, bccskel
         >>> table = bccskel.skeletonize(np.ones((5, 5, 40))).to_pandas()
@@ -258,7 +259,8 @@ class Skeleton:
         }
         places = {"coord": self.nodes}
         if self._of_voxels:
-            places = {"image-coord": self._frame.voxels(self.nodes), "coord": self.nodes}
+            places = {"image-coord": self._columns(self._outcome.node_voxels()),
+                      "coord": self.nodes}
         for name, values in places.items():
             for end, index in (("src", source), ("dst", target)):
                 for axis in range(3):

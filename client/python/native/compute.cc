@@ -194,6 +194,7 @@ absl::StatusOr<LabelOutcomes> SkeletonizeOnServer(const client::LabelVolume& ima
     outcome->result = std::move(skeleton.result);
     outcome->root = arguments.root;
     outcome->voxels = skeleton.voxels;
+    outcome->grid = image.grid;
     outcomes.emplace(skeleton.label, outcome);
     return absl::OkStatus();
   };

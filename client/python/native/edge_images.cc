@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/exec/status_macros.h"
+#include "core/labels/curve_points.h"
 #include "core/labels/label_collector.h"
 
 namespace bccskel::python {
@@ -50,22 +51,37 @@ absl::StatusOr<LabeledObject> VoxelsOf(const Volume& object, const MaskGrid& gri
   return objects.objects.empty() ? LabeledObject() : std::move(objects.objects.front());
 }
 
+// Needs: a grid.
+absl::StatusOr<std::shared_ptr<const LabeledObject>> KnownVoxels(const Outcome& outcome,
+                                                                 const exec::Context& context) {
+  if (outcome.label != nullptr) return outcome.label;
+  if (outcome.object == nullptr || outcome.mask.sampling.has_value()) {
+    return std::make_shared<const LabeledObject>();
+  }
+  BCCSKEL_ASSIGN_OR_RETURN(LabeledObject found,
+                           VoxelsOf(*outcome.object, *outcome.grid, outcome.mask.points, context));
+  return std::make_shared<const LabeledObject>(std::move(found));
+}
+
 }  // namespace
 
 absl::StatusOr<SparseImage> ImageOf(const Outcome& outcome, EdgeImage kind,
                                     const exec::Context& context) {
   BCCSKEL_RETURN_IF_ERROR(CheckVoxels(outcome));
   const MaskGrid& grid = *outcome.grid;
-  std::shared_ptr<const LabeledObject> voxels = outcome.label;
-  if (voxels == nullptr) {
-    BCCSKEL_ASSIGN_OR_RETURN(LabeledObject found,
-                             VoxelsOf(*outcome.object, grid, outcome.mask.points, context));
-    voxels = std::make_shared<const LabeledObject>(std::move(found));
-  }
+  BCCSKEL_ASSIGN_OR_RETURN(const std::shared_ptr<const LabeledObject> voxels,
+                           KnownVoxels(outcome, context));
   if (voxels->runs.empty()) return SparseImage();
   const SkeletonGraph& graph = outcome.result.graph;
   if (kind == EdgeImage::kCurves) return DrawSkeleton(grid, *voxels, graph);
   return NearestEdges(grid, *voxels, graph, outcome.mask.adjacency, context);
+}
+
+absl::StatusOr<std::vector<std::array<int32_t, 3>>> VoxelsOfNodes(const Outcome& outcome,
+                                                                  const exec::Context& context) {
+  BCCSKEL_ASSIGN_OR_RETURN(const std::shared_ptr<const LabeledObject> voxels,
+                           KnownVoxels(outcome, context));
+  return NodeVoxels(outcome.result.graph, *outcome.grid, RunLookup(voxels->runs));
 }
 
 }  // namespace bccskel::python

@@ -2,6 +2,10 @@
 #define BCCSKEL_CLIENT_PYTHON_NATIVE_EDGE_IMAGES_H_
 
 #include "absl/status/statusor.h"
+#include <array>
+#include <cstdint>
+#include <vector>
+
 #include "client/python/native/compute.h"
 #include "core/exec/context.h"
 #include "core/labels/edge_image.h"
@@ -19,6 +23,13 @@ enum class EdgeImage {
 //         the function.
 absl::StatusOr<SparseImage> ImageOf(const Outcome& outcome, EdgeImage kind,
                                     const exec::Context& context);
+
+// The voxel x, y, z of each node: one of the object, unless the object is unknown or is no longer
+// that of the voxels, as in samplings; then the nearest one of the grid.
+// Needs:  a grid.
+// Errors: as NodeVoxels().
+absl::StatusOr<std::vector<std::array<int32_t, 3>>> VoxelsOfNodes(const Outcome& outcome,
+                                                                  const exec::Context& context);
 
 }  // namespace bccskel::python
 

@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <limits>
 #include <memory>
@@ -292,6 +293,20 @@ py::array_t<uint32_t> Draw(const Outcome& outcome, EdgeImage kind) {
   return array;
 }
 
+// Shape (nodes, 3): x, y, z. Needs: a grid.
+py::array_t<int64_t> NodeVoxelsOf(const Outcome& outcome) {
+  std::vector<std::array<int32_t, 3>> voxels;
+  RunJob(py::none(), [&](Job& job) -> absl::Status {
+    cli::LocalTeam team(1, job.stop());
+    BCCSKEL_ASSIGN_OR_RETURN(voxels, VoxelsOfNodes(outcome, team.context()));
+    return absl::OkStatus();
+  });
+  py::array_t<int64_t> array({static_cast<py::ssize_t>(voxels.size()), py::ssize_t{3}});
+  int64_t* to = array.mutable_data();
+  for (const auto& voxel : voxels) to = std::ranges::copy(voxel, to).out;
+  return array;
+}
+
 using LabelList = std::vector<std::pair<uint64_t, std::shared_ptr<Outcome>>>;
 
 absl::Status WriteEachLabel(const std::string& path, const LabelList& labels,
@@ -352,6 +367,7 @@ void AddSkeletonClass(py::module_& module) {
       .def("edges", [graph](const Outcome& o) { return EdgesOf(graph(o)); })
       .def("sheets", [graph](const Outcome& o) { return SheetsOf(graph(o)); })
       .def("order", &OrderOf)
+      .def("node_voxels", &NodeVoxelsOf)
       .def("curve_image", [](const Outcome& o) { return Draw(o, EdgeImage::kCurves); })
       .def("branch_image", [](const Outcome& o) { return Draw(o, EdgeImage::kBranches); })
       .def("save", &Save, py::arg("path"), py::arg("title"), py::arg("world"), py::arg("unit"),
