@@ -297,6 +297,7 @@ absl::StatusOr<Volume> FillOnGridOf(const view::ResultDocument& result,
   const Placement& placement = *result.placement;
   VoxelizeOptions grid = arguments.grid;
   grid.spacing = placement.spacing[0];
+  grid.large_cells = LargeCells::kAccept;
   BCCSKEL_ASSIGN_OR_RETURN(Volume centered,
                            LoadObject(arguments.object, grid, arguments.image, context));
   const double off = std::abs(centered.placement().origin[0] - placement.origin[0]);

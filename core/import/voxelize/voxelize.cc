@@ -63,6 +63,16 @@ absl::Status CheckSize(const Surface& surface) {
   return absl::OkStatus();
 }
 
+absl::Status CheckCell(const Surface& surface, double spacing) {
+  const auto& [x, y, z] = surface.upper_unit;
+  const double unit = 2 * surface.half_size;
+  if (spacing <= std::max({x, y, z}) * unit) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrFormat(
+      "spacing %g: a cell is larger than the mesh, whose box is %.4g x %.4g x %.4g; use a smaller "
+      "--spacing, or --points",
+      spacing, x * unit, y * unit, z * unit));
+}
+
 // Looks for the spacing that gives a number of points.
 class SpacingSearch {
  public:
@@ -102,6 +112,8 @@ class Voxelizer {
     BCCSKEL_ASSIGN_OR_RETURN(result.fill, ChooseFillRule(surface_.report, options_.fill));
     BCCSKEL_RETURN_IF_ERROR(CheckSize(surface_));
     warnings_ = DefectWarnings(surface_.report, result.fill);
+    const bool chosen = options_.spacing && options_.large_cells == LargeCells::kRefuse;
+    if (chosen) BCCSKEL_RETURN_IF_ERROR(CheckCell(surface_, *options_.spacing));
     fill_.emplace(surface_, result.fill, options_.max_points);
     BCCSKEL_ASSIGN_OR_RETURN(Sampling sampling, FillAsAsked());
     const uint64_t inside = sampling.volume.PointCount();
@@ -112,6 +124,8 @@ class Voxelizer {
     result.volume = std::move(sampling.volume);
     if (result.volume.empty()) {
       warnings_.push_back("no lattice point is inside: the spacing is too large for this mesh");
+    } else if (chosen) {
+      WarnOfFewPoints(*options_.spacing);
     }
     result.added_points = result.volume.PointCount() - inside;
     if (options_.topology == TopologyCheck::kCompare && !result.volume.empty()) {
@@ -134,6 +148,18 @@ class Voxelizer {
     if (!options_.spacing) return FillToCount(*options_.points);
     const double unit_spacing = *options_.spacing / surface_.half_size / 2;
     return Fill(unit_spacing, options_.shift);
+  }
+
+  // The points that keep thin parts hide that so few are inside.
+  void WarnOfFewPoints(double spacing) {
+    constexpr double kFew = 16;
+    const double unit_spacing = spacing / surface_.half_size / 2;
+    const double points = 2 * surface_.unit_volume / unit_spacing / unit_spacing / unit_spacing;
+    if (surface_.report.closure != SurfaceClosure::kOriented || !(points < kFew)) return;
+    warnings_.push_back(absl::StrFormat(
+        "a spacing of %g leaves about %.2g lattice points to the volume of the mesh, too few for "
+        "its shape; use a smaller --spacing, or --points",
+        spacing, points));
   }
 
   // Repairs the topology, or warns about it.

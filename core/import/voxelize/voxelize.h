@@ -23,6 +23,9 @@ namespace bccskel {
 // volume is repaired as far as that succeeds (see topology_repair.h).
 enum class TopologyCheck { kCompare, kSkip };
 
+// A spacing larger than the mesh is a mistake, unless it is that of a result of few points.
+enum class LargeCells { kRefuse, kAccept };
+
 struct VoxelizeOptions {
   // Exactly one of these two. The number of points is met within 2 % where the solid has enough of
   // them, not counting those that keep thin parts; the spacing is the edge of the cubic cell in the
@@ -31,6 +34,7 @@ struct VoxelizeOptions {
   std::optional<double> spacing = {};
   // Of a spacing. A number of points takes a centered grid, unless only one off the center has it.
   GridShift shift = GridShift::kCentered;
+  LargeCells large_cells = LargeCells::kRefuse;
   FillRule fill = FillRule::kAuto;
   // Not with kParity, which does not say on which side of the surface the solid is.
   ThinParts thin_parts = ThinParts::kKeep;
@@ -54,10 +58,11 @@ struct VoxelizeResult {
 // Does:    snaps vertices to 2^-16 lattice units, casts an exact ray along x through every lattice
 //          row and fills spans into sparse bricks.
 // Cost:    time and memory follow the surface in rows and the solid in bricks, not the box.
-// Errors:  INVALID_ARGUMENT (options, nothing enclosed, sizes a double cannot hold, kParity for an
-//          open mesh, kWinding for a closed one of inconsistent orientation), FAILED_PRECONDITION
-//          (kAuto for an open mesh), RESOURCE_EXHAUSTED (more than kMaxExtentCells cells along an
-//          axis, more points than max_points), CANCELLED, DEADLINE_EXCEEDED.
+// Errors:  INVALID_ARGUMENT (options, nothing enclosed, cells that LargeCells refuses, sizes a
+//          double cannot hold, kParity for an open mesh, kWinding for a closed one of inconsistent
+//          orientation), FAILED_PRECONDITION (kAuto for an open mesh), RESOURCE_EXHAUSTED (more
+//          than kMaxExtentCells cells along an axis, more points than max_points), CANCELLED,
+//          DEADLINE_EXCEEDED.
 // Threads: same bits for any number of threads.
 absl::StatusOr<VoxelizeResult> Voxelize(const TriangleMesh& mesh, const VoxelizeOptions& options,
                                         const exec::Context& context);

@@ -131,10 +131,18 @@ TEST(VoxelizeSpacing, IsTheEdgeOfTheCubicCellInUnitsOfTheMesh) {
 }
 
 TEST(VoxelizeSpacing, TooLargeGivesAnEmptySolidWithAWarning) {
-  const VoxelizeResult result =
-      Voxelized(Box({0, 0, 0}, {1, 1, 1}), {.spacing = 3, .thin_parts = ThinParts::kSample});
+  const VoxelizeResult result = Voxelized(Box({0, 0, 0}, {1, 0.01, 0.01}),
+                                          {.spacing = 0.9, .thin_parts = ThinParts::kSample});
   EXPECT_TRUE(result.volume.empty());
   EXPECT_THAT(result.warnings, ::testing::Contains(HasSubstr("spacing is too large")));
+}
+
+TEST(VoxelizeSpacing, ThatLeavesTooFewPointsIsWarnedOf) {
+  const auto warns = HasSubstr("too few for its shape; use a smaller --spacing, or --points");
+  const TriangleMesh box = Box({0, 0, 0}, {9, 1, 2});
+  EXPECT_THAT(Voxelized(box, {.spacing = 2}).warnings, ::testing::Contains(warns));
+  EXPECT_THAT(Voxelized(box, {.spacing = 1}).warnings, ::testing::IsEmpty());
+  EXPECT_THAT(Voxelized(box, {.points = 5}).warnings, Not(::testing::Contains(warns)));
 }
 
 TEST(VoxelizePlacement, PutsThePointsWhereTheMeshIs) {
@@ -212,6 +220,15 @@ TEST(VoxelizeRefusal, NamesTheValueAndTheLimit) {
   EXPECT_EQ(none.code(), absl::StatusCode::kInvalidArgument);
   EXPECT_THAT(none.message(), AllOf(HasSubstr("0 points"), HasSubstr("1 to 500")));
   EXPECT_THAT(Refusal(mesh, {.points = 501, .max_points = 500}).message(), HasSubstr("501"));
+}
+
+TEST(VoxelizeRefusal, OfCellsLargerThanTheMesh) {
+  const absl::Status status = Refusal(Box({5, 0, 0}, {9, 1, 2}), {.spacing = 10});
+  EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_THAT(status.message(), HasSubstr("spacing 10: a cell is larger than the mesh, "
+                                          "whose box is 4 x 1 x 2; use a smaller"));
+  EXPECT_FALSE(Voxelized(Box({5, 0, 0}, {9, 1, 2}), {.spacing = 4}).volume.empty());
+  Voxelized(Box({5, 0, 0}, {9, 1, 2}), {.spacing = 10, .large_cells = LargeCells::kAccept});
 }
 
 TEST(VoxelizeRefusal, OfASolidWithTooManyPoints) {
