@@ -65,13 +65,32 @@ class ArgumentsTest(harness.TestCase):
         refuse(TypeError, "progress must be a function of (done, total) or None, got bool",
                progress=True)
         refuse(ValueError, "no voxel has the label 7", label=7)
-        refuse(ValueError, "root must be 3 numbers, one per axis, got (1, 2)", root=(1, 2))
-        refuse(ValueError, "root must be 3 numbers, one per axis, got 7", root=7)
+        refuse(ValueError, "root must be 3 finite numbers, one per axis, got (1, 2)", root=(1, 2))
+        refuse(ValueError, "root must be 3 finite numbers, one per axis, got 7", root=7)
+        refuse(ValueError, "root must be 3 finite numbers, one per axis, got (nan, 0, 0)",
+               root=(float("nan"), 0, 0))
+        refuse(ValueError, "root must be 3 finite numbers, one per axis, got ('a', 0, 0)",
+               root=("a", 0, 0))
         refuse(ValueError, "pruning_threshold: must be finite and positive, not wide",
                pruning_threshold="wide")
         refuse(ValueError, "denoise 2.5: must be a whole number", denoise=2.5)
         self.refuse(ValueError, "root node:N names a node of one skeleton; labels have many",
                     bccskel.skeletonize_labels, MASK, root="node:1")
+
+    def test_wrong_labels_are_named_with_their_place_in_the_array(self):
+        def refuse(value, text, kind, **axes):
+            labels = numpy.zeros((4, 5, 6), kind)
+            labels[2, 1, 3] = value
+            with self.assertRaises(ValueError) as caught:
+                bccskel.skeletonize_labels(labels, **axes)
+            self.assertEqual(str(caught.exception),
+                             f"voxel (2, 1, 3) is {text}; labels are whole numbers from 0 on")
+
+        for axes in ("zyx", "xyz", "yxz"):
+            refuse(-1, "-1", "i2", axes=axes)
+            refuse(0.5, "0.5", "f4", axes=axes)
+        refuse(1e20, "1e+20", "f8")
+        refuse(-numpy.inf, "-inf", "f4")
 
     def test_flags_that_are_off_and_options_that_are_none_do_nothing(self):
         self.assertEqual(bccskel.skeletonize(MASK, fill_cavities=False, threshold=None).sha256,

@@ -48,6 +48,15 @@ class ServerTest(harness.TestCase):
         self.assertEqual(self.client.skeletonize_labels(image, min_voxels=10 ** 6), {})
         with self.assertRaisesRegex(ValueError, "^no voxel has the label 7$"):
             self.client.skeletonize_labels(image, labels=7)
+        for value in (-1.0, 0.5, 1e20, numpy.inf):
+            wrong = image.astype("f8")
+            wrong[3, 2, 1] = value
+            for skeletonize in (self.client.skeletonize_labels, bccskel.skeletonize_labels):
+                with self.assertRaises(ValueError) as caught:
+                    skeletonize(wrong)
+                self.assertIn(f"voxel (3, 2, 1) is {value:g};", str(caught.exception))
+        large = numpy.full((3, 3, 3), 1e19)
+        self.assertEqual(list(self.client.skeletonize_labels(large)), [10 ** 19])
         there[4].save(self.path("four.swc"))
         for name in ("four.html", "four.exr"):
             with self.assertRaises(NotImplementedError):

@@ -11,7 +11,8 @@ from typing import Any, Callable, Optional, Union
 import numpy as np
 
 from . import _native
-from ._image import Frame, Image, Lattice, Mesh, labels_for_sending, triangles_of, voxels_of
+from ._image import (Frame, Image, Lattice, Mesh, check_labels, labels_for_sending, triangles_of,
+                     voxels_of)
 from ._options import texts_of
 from ._skeleton import Skeleton
 
@@ -81,9 +82,14 @@ def _labels(server: Any, image: Any, spacing: Any, origin: Any, direction: Any, 
     texts = texts_of("skeletonize_labels", "labels", options, frame.to_xyz)
     view = frame.zyx(array)
     if server is not None:
+        check_labels(array)
         view = labels_for_sending(view)
-    outcomes = _native.skeletonize_labels(view, frame.placement(), texts,
-                                          _call(server, threads, timeout, progress))
+    call = _call(server, threads, timeout, progress)
+    try:
+        outcomes = _native.skeletonize_labels(view, frame.placement(), texts, call)
+    except ValueError:
+        check_labels(array)  # names the voxel in the order of these axes
+        raise
     return {label: Skeleton(outcome, frame, title=f"label {label}", voxels=True, label=label,
                             image=image)
             for label, outcome in outcomes.items()}

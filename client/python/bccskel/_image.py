@@ -147,18 +147,24 @@ def voxels_of(array: Any, name: str) -> np.ndarray:
     return array.astype(array.dtype.newbyteorder("="), copy=False)
 
 
-def labels_for_sending(labels: np.ndarray) -> np.ndarray:
-    """The same labels as a contiguous array of unsigned numbers."""
+def check_labels(labels: np.ndarray) -> None:
+    """Raises ValueError for values that are no labels, with the place in the array's own axes."""
+    if labels.dtype.kind == "u" or (labels.dtype.kind == "i" and labels.min() >= 0):
+        return
+    wrong = labels < 0
     if labels.dtype.kind == "f":
-        whole = np.nan_to_num(labels, nan=0.0)
-        if not (whole == np.trunc(whole)).all() or not (np.abs(whole) < 2.0 ** 63).all():
-            raise ValueError("labels must be whole numbers")
-        labels = whole.astype(np.int64)
-    if labels.dtype.kind == "i":
-        if labels.min() < 0:
-            raise ValueError(f"labels must be whole numbers from 0 on, got {labels.min()}")
-        labels = labels.astype(f"u{labels.itemsize}", copy=False)
-    return np.ascontiguousarray(labels)
+        wrong |= (labels >= 2.0 ** 64) | ((labels != np.trunc(labels)) & ~np.isnan(labels))
+    if wrong.any():
+        place = np.unravel_index(wrong.argmax(), wrong.shape)
+        raise ValueError(f"voxel ({', '.join(str(n) for n in place)}) is {labels[place]:g}; "
+                         "labels are whole numbers from 0 on")
+
+
+def labels_for_sending(labels: np.ndarray) -> np.ndarray:
+    """The same labels as a contiguous array of unsigned numbers. Needs: check_labels()."""
+    if labels.dtype.kind == "f":
+        labels = np.nan_to_num(labels, nan=0.0).astype(np.uint64)
+    return np.ascontiguousarray(labels.astype(f"u{labels.itemsize}", copy=False))
 
 
 def triangles_of(mesh: Any, faces: Any) -> tuple:

@@ -31,12 +31,19 @@ def texts_of(function: str, kind: str, options: dict, to_xyz: list) -> list:
             if value:
                 texts.append((name, None))
         elif name in _PLACES and not isinstance(value, str):
-            if np.shape(value) != (3,):
-                raise ValueError(f"{name} must be 3 numbers, one per axis, got {value!r}")
+            if np.shape(value) != (3,) or not _finite(value):
+                raise ValueError(f"{name} must be 3 finite numbers, one per axis, got {value!r}")
             texts.append((name, _text(name, np.asarray(value)[to_xyz])))
         else:
             texts.append((name, _text(name, value)))
     return texts
+
+
+def _finite(values: Any) -> bool:
+    try:
+        return bool(np.isfinite(np.asarray(values, float)).all())
+    except (TypeError, ValueError):
+        return False
 
 
 def _text(name: str, value: Any) -> str:
