@@ -1,6 +1,8 @@
 #include "core/pipeline/notes.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <numbers>
 #include <span>
 
@@ -62,30 +64,68 @@ void AddNarrowLoops(const SkeletonizeResult& result, Notes& notes) {
                                          width));
 }
 
+// The lattice points of a voxel, and of a row of voxels for each more. Those on its faces count,
+// of which a volume knows nothing. 0 for objects without exact voxels.
+class VoxelPointCounts {
+ public:
+  explicit VoxelPointCounts(const SkeletonizeOptions& options) {
+    if (options.source != ObjectSource::kVoxels && options.source != ObjectSource::kRefinedVoxels) {
+      return;
+    }
+    for (size_t axis = 0; axis < 3; ++axis) {
+      parts_[axis] = CellsPerVoxel(options.source) * std::max(options.voxel_slabs[axis], 1);
+    }
+    const auto [x, y, z] = parts_;
+    of_voxel_ = x * y * z + (x + 1) * (y + 1) * (z + 1);
+    for (size_t axis = 0; axis < 3; ++axis) {
+      of_next_[axis] = x * y * z + (x + 1) * (y + 1) * (z + 1) / (parts_[axis] + 1) * parts_[axis];
+    }
+  }
+
+  double OfVoxel() const { return of_voxel_; }
+  double OfStep(LatticePoint a, LatticePoint b) const {
+    const std::array<double, 3> step = {std::abs(b.x - a.x) / (2 * parts_[0]),
+                                        std::abs(b.y - a.y) / (2 * parts_[1]),
+                                        std::abs(b.z - a.z) / (2 * parts_[2])};
+    const auto axis = static_cast<size_t>(std::ranges::max_element(step) - step.begin());
+    return step[axis] * of_next_[axis];
+  }
+
+ private:
+  std::array<double, 3> parts_ = {1, 1, 1};
+  double of_voxel_ = 0;
+  std::array<double, 3> of_next_ = {};
+};
+
 // The share of the object in the balls along the curves: those of isolated points, and for each
-// edge its tube and its largest ball. Too large where these overlap.
+// edge its tube and its largest ball. Too large where these overlap. A curve holds at least the
+// voxels that it runs through, which may be wider than its balls and all that there is.
 double ShareInBalls(const SkeletonizeResult& result) {
   constexpr double kVolumeOfPoint = 4;  // in lattice units
   const SkeletonGraph& graph = result.graph;
   const AxisScale scale = AxisScaleOf(graph.placement);
-  const auto ball = [](double r) { return 4 * std::numbers::pi / 3 * r * r * r; };
-  double volume = 0;
+  const double cell = kVolumeOfPoint * scale[0] * scale[1] * scale[2];
+  const VoxelPointCounts voxels(result.options);
+  const auto ball = [&](double r) {
+    return std::max(4 * std::numbers::pi / 3 * r * r * r / cell, voxels.OfVoxel());
+  };
+  double held = 0;
   for (const SkeletonNode& node : graph.nodes) {
-    if (node.kind == NodeKind::kIsolated) volume += ball(node.at.radius);
+    if (node.kind == NodeKind::kIsolated) held += ball(node.at.radius);
   }
   for (const SkeletonEdge& edge : graph.edges) {
     const std::span<const SkeletonPoint> points = graph.PointsOf(edge);
     double largest = points[0].radius;
     for (size_t n = 1; n < points.size(); ++n) {
+      const LatticePoint from = points[n - 1].point, to = points[n].point;
       const double radius = points[n].radius;
-      const double way = StraightDistance(points[n - 1].point, points[n].point, scale);
-      volume += std::numbers::pi * radius * radius * way;
+      const double tube = std::numbers::pi * radius * radius * StraightDistance(from, to, scale);
+      held += std::max(tube / cell, voxels.OfStep(from, to));
       largest = std::max(largest, radius);
     }
-    volume += ball(largest);
+    held += ball(largest);
   }
-  const double cell = kVolumeOfPoint * scale[0] * scale[1] * scale[2];
-  return volume / (cell * static_cast<double>(result.object_points));
+  return held / static_cast<double>(result.object_points);
 }
 
 // Curves represent plates and shells poorly.

@@ -122,6 +122,19 @@ class SkeletonsTest(harness.TestCase):
         self.assertEqual(sheets.sheet_radii.shape, sheets.sheets.shape[:1])
         self.assertEqual(self.skeleton.sheets.shape[1], 3)
 
+    def test_plates_are_noted_and_rows_of_voxels_are_not(self):
+        for spacing, voxel_points in itertools.product(((1, 1, 1), (3, 1, 1), (2, 3, 4), (1, 1, 8)),
+                                                       (2, 16)):
+            options = dict(spacing=spacing, voxel_points=voxel_points)
+            for axis, length in itertools.product(range(3), (1, 2, 3, 9, 30)):
+                shape = numpy.ones(3, int)
+                shape[axis] = length
+                with self.subTest(shape, **options):
+                    row = bccskel.skeletonize(numpy.pad(numpy.ones(shape), 1), **options)
+                    self.assertEqual(row.notes, [])
+            with self.assertWarnsRegex(UserWarning, "as in plates"):
+                bccskel.skeletonize(numpy.pad(numpy.ones((1, 80, 80)), 2), **options)
+
     def test_cavities_are_noted(self):
         hollow = numpy.pad(ball(9), 3)
         hollow[11:16, 11:16, 11:16] = False
