@@ -15,6 +15,7 @@
 
 #include "client/cli/option_values.h"
 #include "core/exec/status_macros.h"
+#include "core/mask/mask_sampler.h"
 
 namespace bccskel::cli {
 
@@ -152,6 +153,7 @@ void AddConversion(CLI::App& command, ImageArguments& arguments) {
           },
           "Lattice points per voxel of --sampling nearest or trilinear (default 2)")
       ->needs(sampling)
+      ->check(Within(kMinPointsPerVoxel, kMaxPointsPerVoxel))
       ->option_text("X");
 }
 

@@ -11,6 +11,7 @@
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "absl/strings/str_replace.h"
 #include "absl/strings/str_split.h"
 #include "client/cli/image_options.h"
 #include "client/cli/thinning_options.h"
@@ -203,7 +204,7 @@ std::string WithOptionNames(std::string_view message) {
     text += in_name && c == '-' ? '_' : c;
     message.remove_prefix(1);
   }
-  return text;
+  return absl::StrReplaceAll(text, {{"the command labels", "skeletonize_labels()"}});
 }
 
 std::vector<std::string> OptionNames(OptionSet set) {

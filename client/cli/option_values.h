@@ -110,7 +110,8 @@ struct NamedOption {
 
 enum class OptionSet { kMask, kMesh, kLabels, kFile };
 
-// A message with the options named as here: "--fill-cavities helps" becomes "fill_cavities helps".
+// A message with the options named as here: "--fill-cavities helps" becomes "fill_cavities helps",
+// and "the command labels" becomes "skeletonize_labels()".
 std::string WithOptionNames(std::string_view message);
 
 // The names of the set's options, in the order of --help.

@@ -108,6 +108,30 @@ class ArgumentsTest(harness.TestCase):
                "(12, 3) and dtype float64", vertices, faces * 1.0)
         refuse(TypeError, "skeletonize_mesh() needs faces beside vertices", vertices)
 
+    def test_messages_name_functions_and_arguments_of_python(self):
+        labels = numpy.repeat(numpy.arange(1, 5, dtype="u1"), 75).reshape(3, 10, 10)
+        labels[0, 0, :3] = 0
+        with self.assertWarnsRegex(UserWarning, r"label selects some, and skeletonize_labels\(\) "
+                                                "takes each by itself$"):
+            skeleton = bccskel.skeletonize(labels)
+        self.refuse(ValueError, "density: must be 0.01 to 1000, not 1000000000.0",
+                    bccskel.skeletonize, MASK, sampling="nearest", density=1e9)
+        path = self.path("ball.swc")
+        for step in ("a", True):
+            self.refuse(TypeError, f"swc_step must be a number or None, got {step!r}",
+                        skeleton.save, path, swc_step=step)
+        for label in (-1, 2 ** 64, 1.5, "a"):
+            self.refuse(ValueError, "labels must be whole numbers from 0 to 2**64 - 1, "
+                        f"got {label!r}", bccskel.save_labels, path, {label: skeleton})
+        self.refuse(TypeError, "label 1 must have a Skeleton, got int", bccskel.save_labels, path,
+                    {1: 7})
+        self.refuse(TypeError, "skeletons must be a dict of skeletons by label, got list",
+                    bccskel.save_labels, path, [skeleton])
+        for tls in (5, ("a", "b"), (1, 2, 3)):
+            self.refuse(ValueError, "tls must be None, True, a path or (authorities, certificate, "
+                        "key)", bccskel.Client, tls=tls)
+        bccskel.Client("unix:/nowhere", tls=False)
+
     def test_files(self):
         self.refuse(FileNotFoundError, "cannot open '/nowhere.npy': No such file or directory",
                     bccskel.read, "/nowhere.npy")

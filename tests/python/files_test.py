@@ -42,6 +42,18 @@ class FilesTest(harness.TestCase):
                     self.assertEqual(self.bytes("mine" + ending), self.bytes("theirs" + ending))
         self.assertGreater(len(self.bytes("mine.html")), 100_000)
 
+    def test_unsupported_encodings_are_value_errors(self):
+        header = ("NRRD0004\ntype: uint8\ndimension: 3\nsizes: 2 2 2\nencoding: ascii\n\n"
+                  "1 0 1 0 1 0 1 0\n")
+        (self.folder / "a.nrrd").write_text(header)
+        with self.assertRaisesRegex(ValueError, "ascii"):
+            bccskel.read(self.path("a.nrrd"))
+        (self.folder / "a.mha").write_text(
+            "ObjectType = Image\nNDims = 3\nDimSize = 2 2 2\nElementType = MET_UCHAR\n"
+            "BinaryData = False\nElementDataFile = LOCAL\n1 0 1 0 1 0 1 0\n")
+        with self.assertRaisesRegex(ValueError, "as text"):
+            bccskel.read(self.path("a.mha"))
+
     def test_a_place_for_the_label_makes_a_file_for_each(self):
         labels = crossing_bars().astype("u2") * 3
         labels[:, :, 25:] *= 100

@@ -101,6 +101,7 @@ class ReadTest(harness.TestCase):
                                       [node["position"] for node in document["nodes"]])
         self.assertEqual(len(skeleton.to_pandas()), len(document["edges"]))
         self.assertIsNone(skeleton.order)
+        self.assertIsNone(skeleton.voxels)
 
     def test_it_is_saved_as_convert_does(self):
         for words in ((), ("--root", "thickest-end"), ("--root", "thickest-node")):
@@ -115,9 +116,13 @@ class ReadTest(harness.TestCase):
                     self.assertEqual((self.folder / ("mine" + ending)).read_bytes(),
                                      (self.folder / ("theirs" + ending)).read_bytes(),
                                      (words, ending))
-        for ending in (".json", ".svg", ".html", ".exr"):
-            with self.assertRaises((ValueError, NotImplementedError)):
+        for ending in (".svg", ".html", ".exr"):
+            with self.assertRaisesRegex(ValueError, r"^pictures, pages .*with skeletonize\(\)$"):
                 read.save(self.path("mine" + ending))
+        with self.assertRaisesRegex(ValueError, "^pictures, pages"):
+            read.page()
+        with self.assertRaisesRegex(ValueError, "not written as JSON again"):
+            read.save(self.path("mine.json"))
         with self.assertRaisesRegex(ValueError, "read from a file does not contain the voxels"):
             read.curve_image()
 

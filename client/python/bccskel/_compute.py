@@ -205,7 +205,8 @@ def read(path: Union[str, os.PathLike],
         series (of DICOM), array (of npz), voxel_size=(z, y, x), and raw_size=(z, y, x), raw_type,
         raw_order and raw_header for files without a header.
 
-    Raises FileNotFoundError, PermissionError; ValueError for a file of another kind.
+    Raises FileNotFoundError, PermissionError; ValueError for a file of another kind or with an
+    encoding that is not supported.
 
     >>> import os, tempfile
     >>> import numpy as np
@@ -216,7 +217,13 @@ def read(path: Union[str, os.PathLike],
     >>> image.array.shape, image.spacing
     ((2, 3, 4), (2.0, 1.0, 1.0))
     """
-    name = os.fspath(path)
+    try:
+        return _read(os.fspath(path), options)
+    except NotImplementedError as error:
+        raise ValueError(str(error)) from None
+
+
+def _read(name: str, options: dict) -> Union[Image, Mesh, Lattice, Skeleton]:
     texts = texts_of("read", "file", options, [2, 1, 0])
     if _native.is_mesh(name) and not texts:
         vertices, faces = _native.read_mesh(name)
@@ -250,7 +257,7 @@ class Client:
     address: 'HOST:PORT' or 'unix:PATH'.
     token: the access token, in visible ASCII; surrounding whitespace, such
         as the newline of a file, is removed.
-    tls: None for no encryption; True to trust the authorities of this machine; the path of a file
+    tls: None or False for no encryption; True to trust the authorities of this machine; the path of a file
         of authorities (PEM); or (authorities, certificate, key), three paths.
     plaintext_token: also send the token over a network without TLS.
 
@@ -266,9 +273,12 @@ class Client:
                  tls: Any = None, plaintext_token: bool = False) -> None:
         if tls is True:
             tls = _SYSTEM_AUTHORITIES
-        paths = (tls,) if tls is None or isinstance(tls, (str, os.PathLike)) else tuple(tls)
-        if len(paths) not in (1, 3):
-            raise ValueError("tls must be True, a path or (authorities, certificate, key)")
+        elif tls is False:
+            tls = None
+        paths = tuple(tls) if isinstance(tls, (tuple, list)) else (tls,)
+        if len(paths) not in (1, 3) or not all(isinstance(path, (str, os.PathLike, type(None)))
+                                               for path in paths):
+            raise ValueError("tls must be None, True, a path or (authorities, certificate, key)")
         pems = [_pem(path) for path in paths] + [""] * (3 - len(paths))
         for name, text in (("address", address), ("token", token or "")):
             if not isinstance(text, str):

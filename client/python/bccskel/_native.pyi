@@ -42,7 +42,7 @@ class Outcome:
     timings: dict[str, float]
     notes: list[str]
     warnings: list[str]
-    voxels: int
+    voxels: Optional[int]
     method: str
     algorithm_version: str
     object_points: int

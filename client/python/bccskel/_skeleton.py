@@ -5,12 +5,14 @@ from __future__ import annotations
 import functools
 import html
 import math
+import numbers
 import os
 import pathlib
 import tempfile
 import warnings
 import webbrowser
-from typing import TYPE_CHECKING, Any, Mapping, Optional, Union
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, Optional, Union
 
 import numpy as np
 
@@ -191,8 +193,9 @@ class Skeleton:
         return self._outcome.timings
 
     @property
-    def voxels(self) -> int:
-        """The number of voxels of the mask or the label; 0 for a mesh."""
+    def voxels(self) -> Optional[int]:
+        """The number of voxels of the mask or the label; 0 for a mesh, None for a result that was
+        read, which does not state it."""
         return self._outcome.voxels
 
     def to_networkx(self, points: bool = False) -> networkx.MultiGraph:
@@ -315,7 +318,8 @@ class Skeleton:
         (a page) or .precomputed (a folder for Neuroglancer, in nanometers). It has the coordinates x, y, z.
 
         `swc_step` is the distance of SWC's points along the smooth curve, by default twice the
-        smallest spacing; 0 writes the lattice points, not smoothed.
+        smallest spacing; 0 writes the lattice points, not smoothed. A result that was read from
+        JSON has no object to show and no lattice points, and is not written as JSON again.
 
         Raises ValueError for another ending, OSError where it cannot be written. Warns of what the
         format could not hold.
@@ -327,6 +331,9 @@ class Skeleton:
         ...     os.listdir(folder)
         ['bar.swc']
         """
+        if swc_step is not None and (isinstance(swc_step, bool)
+                                     or not isinstance(swc_step, numbers.Real)):
+            raise TypeError(f"swc_step must be a number or None, got {swc_step!r}")
         note = self._outcome.save(os.fspath(path), self.title, self.world, self.unit, swc_step)
         if note:
             warnings.warn(f"{os.fspath(path)}: {note}", stacklevel=2)
@@ -396,6 +403,14 @@ def save_labels(path: Union[str, os.PathLike], skeletons: Mapping[int, Skeleton]
     ...     sorted(os.listdir(folder))
     ['bar-7.swc', 'bar-9.swc']
     """
+    if not isinstance(skeletons, Mapping):
+        raise TypeError("skeletons must be a dict of skeletons by label, got "
+                        f"{type(skeletons).__name__}")
+    for label, skeleton in skeletons.items():
+        if not isinstance(label, numbers.Integral) or not 0 <= label < 2 ** 64:
+            raise ValueError(f"labels must be whole numbers from 0 to 2**64 - 1, got {label!r}")
+        if not isinstance(skeleton, Skeleton):
+            raise TypeError(f"label {label} must have a Skeleton, got {type(skeleton).__name__}")
     ordered = sorted(skeletons.items())
     world, unit = (ordered[0][1].world, ordered[0][1].unit) if ordered else ("", "")
     note = _native.save_labels(os.fspath(path),

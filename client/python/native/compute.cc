@@ -86,10 +86,6 @@ absl::Status NoVoxelOf(const std::vector<uint64_t>& labels) {
 
 absl::StatusOr<std::shared_ptr<const Volume>> Outcome::Object() const {
   if (object != nullptr) return object;
-  if (read.has_value()) {
-    return absl::UnimplementedError(
-        "pictures and pages show the object, which a JSON result does not contain");
-  }
   if (label == nullptr || !grid.has_value()) {
     return absl::UnimplementedError(
         "pictures and pages also show the object: for a label that a server has computed, use "

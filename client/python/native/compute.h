@@ -39,7 +39,13 @@ struct Outcome {
   // For a result read from JSON: how it was made; its graph is that of `result`.
   std::optional<view::ResultGraph> read;
 
-  // Errors: UNIMPLEMENTED for a label that a server has computed and for a result read from JSON.
+  // JSON results do not state the number of voxels.
+  std::optional<uint64_t> KnownVoxels() const {
+    return read.has_value() ? std::nullopt : std::optional(voxels);
+  }
+
+  // Needs:  not a result read from JSON.
+  // Errors: UNIMPLEMENTED for a label that a server has computed.
   absl::StatusOr<std::shared_ptr<const Volume>> Object() const;
 };
 

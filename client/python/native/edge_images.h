@@ -1,6 +1,10 @@
 #ifndef BCCSKEL_CLIENT_PYTHON_NATIVE_EDGE_IMAGES_H_
 #define BCCSKEL_CLIENT_PYTHON_NATIVE_EDGE_IMAGES_H_
 
+#include <array>
+#include <cstdint>
+#include <vector>
+
 #include "absl/status/statusor.h"
 #include <array>
 #include <cstdint>

@@ -213,6 +213,18 @@ struct Saying {
   exporting::CurveSampling swc;
 };
 
+using exporting::SkeletonFormat;
+
+absl::Status CheckHeldByRead(SkeletonFormat format) {
+  if (format == SkeletonFormat::kJson) {
+    return absl::InvalidArgumentError("a result that was read is not written as JSON again");
+  }
+  if (!exporting::ShowsObject(format) && format != SkeletonFormat::kVolume) return absl::OkStatus();
+  return absl::InvalidArgumentError(
+      "pictures, pages and lattice points need the object, which a result that was read does not "
+      "contain; compute it again with skeletonize()");
+}
+
 // As `bccskel convert`.
 absl::StatusOr<std::string> SaveRead(const Outcome& outcome, const std::string& path,
                                      const Saying& saying, const std::stop_token& stop) {
@@ -228,26 +240,21 @@ absl::StatusOr<std::string> SaveRead(const Outcome& outcome, const std::string& 
 
 absl::Status SaveIn(const Outcome& outcome, const std::string& path, const Saying& saying,
                     const std::stop_token& stop, std::string& note) {
-  const absl::StatusOr<exporting::SkeletonFormat> format = exporting::SkeletonFormatOf(path);
-  if (!format.ok()) return format.status();
-  using exporting::SkeletonFormat;
-  if (*format == SkeletonFormat::kVolume && outcome.result.thin.PointCount() == 0 &&
+  BCCSKEL_ASSIGN_OR_RETURN(const SkeletonFormat format, exporting::SkeletonFormatOf(path));
+  if (format == SkeletonFormat::kVolume && outcome.result.thin.PointCount() == 0 &&
       outcome.result.skeleton_points > 0) {
     return absl::UnimplementedError("servers do not send the lattice points of labels");
   }
   if (outcome.read.has_value()) {
-    absl::StatusOr<std::string> written = SaveRead(outcome, path, saying, stop);
-    if (!written.ok()) return std::move(written).status();
-    note = *std::move(written);
+    BCCSKEL_RETURN_IF_ERROR(CheckHeldByRead(format));
+    BCCSKEL_ASSIGN_OR_RETURN(note, SaveRead(outcome, path, saying, stop));
     return absl::OkStatus();
   }
-  const bool shown = exporting::ShowsObject(*format);
+  const bool shown = exporting::ShowsObject(format);
   cli::LocalTeam team(shown ? 0 : 1, stop);
   auto object = std::make_shared<const Volume>();
   if (shown) {
-    absl::StatusOr<std::shared_ptr<const Volume>> made = outcome.Object();
-    if (!made.ok()) return made.status();
-    object = *std::move(made);
+    BCCSKEL_ASSIGN_OR_RETURN(object, outcome.Object());
   }
   const exporting::Subject subject = {.result = outcome.result,
                                       .object = *object,
@@ -257,9 +264,7 @@ absl::Status SaveIn(const Outcome& outcome, const std::string& path, const Sayin
                                       .world = saying.world,
                                       .swc = saying.swc,
                                       .draw = view::DrawSubject};
-  absl::StatusOr<std::string> written = exporting::WriteSkeletonFile(path, subject);
-  if (!written.ok()) return written.status();
-  note = *std::move(written);
+  BCCSKEL_ASSIGN_OR_RETURN(note, exporting::WriteSkeletonFile(path, subject));
   return absl::OkStatus();
 }
 
@@ -381,7 +386,7 @@ void AddSkeletonClass(py::module_& module) {
                              [](const Outcome& o) { return WithOptionNames(NotesOn(o.result)); })
       .def_property_readonly("warnings",
                              [](const Outcome& o) { return WithOptionNames(o.warnings); })
-      .def_readonly("voxels", &Outcome::voxels)
+      .def_property_readonly("voxels", &Outcome::KnownVoxels)
       .def_property_readonly("method", [](const Outcome& o) { return o.result.method; })
       .def_property_readonly("algorithm_version",
                              [](const Outcome& o) { return o.result.algorithm_version; })

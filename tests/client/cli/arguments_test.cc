@@ -87,7 +87,7 @@ TEST(ArgumentsTest, OptionsOverruleTheirPresetWhereverTheyStand) {
             neuron.preparing);
   EXPECT_EQ(skeletonize({"--preset", "cad", "--pruning-threshold", "3"}).pruning.threshold, 3);
   const Parsed unknown = Parse("skeletonize a.off -o a.swc --preset cat");
-  for (const char* other : {"--pruning=persistence", "--kind=surface"}) {
+  for (const char* other : {"--pruning=relative-length", "--kind=surface"}) {
     EXPECT_EQ(skeletonize({"--preset", "cad", other}).pruning.threshold, 0) << "not a significance";
     EXPECT_EQ(skeletonize({other, "--pruning-threshold", "3", "--preset", "cad"}).pruning.threshold,
               3);
