@@ -6,10 +6,6 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
-#include <array>
-#include <cstdint>
-#include <vector>
-
 #include "client/python/native/compute.h"
 #include "core/exec/context.h"
 #include "core/labels/edge_image.h"
