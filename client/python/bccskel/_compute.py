@@ -257,8 +257,8 @@ class Client:
     address: 'HOST:PORT' or 'unix:PATH'.
     token: the access token, in visible ASCII; surrounding whitespace, such
         as the newline of a file, is removed.
-    tls: None or False for no encryption; True to trust the authorities of this machine; the path of a file
-        of authorities (PEM); or (authorities, certificate, key), three paths.
+    tls: None or False for no encryption; True to trust the authorities of this machine; the path
+        of a file of authorities (PEM); or (authorities, certificate, key), three paths.
     plaintext_token: also send the token over a network without TLS.
 
     Nothing is sent until a method is called. Raises ConnectionError if no server is reached,
