@@ -82,23 +82,16 @@ std::array<Admission::Part, 2> Admission::PartsOf(const std::string& tenant) con
   return {Part{"all jobs together", all, usage_},
           Part{"this tenant's jobs together",
                {.bytes = own.max_bytes > 0 ? std::min(own.max_bytes, all.bytes) : all.bytes,
-                .places = MostPlaces(own, usage)},
+                .places = limits_.tenants.MostPlaces(tenant, limits_.places,
+                                                     usage_.places - usage.places)},
                usage}};
 }
 
-int Admission::MostPlaces(const TenantLimits& own, const Usage& usage) const {
-  if (own.max_jobs > 0) return std::min(own.max_jobs, limits_.places);
-  if (limits_.tenants.named.size() < 2) return limits_.places;
-  const int others = usage_.places - usage.places;
-  return (limits_.places - others + 1) / 2;
-}
-
 absl::Status Admission::Take(const std::string& tenant, const Usage& wanted) {
-  const TenantLimits& own = limits_.tenants.Of(tenant);
   for (const Part& part : PartsOf(tenant)) {
     BCCSKEL_RETURN_IF_ERROR(CheckFits(part.whose, wanted.bytes, part.limit.bytes, kWhereDeclared));
     if (part.usage.places + wanted.places > part.limit.places) {
-      const bool is_share = part.limit.places < limits_.places && own.max_jobs == 0;
+      const bool is_share = part.limit.places < limits_.places && limits_.tenants.Shares(tenant);
       return CallError(Reason::kQueueFull,
                        absl::StrFormat("%d jobs are running or waiting, the limit for %s is %d%s",
                                        part.usage.places, part.whose, part.limit.places,

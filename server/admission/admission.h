@@ -102,7 +102,6 @@ class Admission {
   };
   // Needs of these: mutex_ held.
   std::array<Part, 2> PartsOf(const std::string& tenant) const;
-  int MostPlaces(const TenantLimits& own, const Usage& usage) const;
   absl::Status Take(const std::string& tenant, const Usage& part);
   absl::Status Grow(const Ticket& ticket, uint64_t bytes);
   enum class Leaving { kNo, kYes };

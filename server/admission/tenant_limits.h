@@ -1,6 +1,7 @@
 #ifndef BCCSKEL_SERVER_ADMISSION_TENANT_LIMITS_H_
 #define BCCSKEL_SERVER_ADMISSION_TENANT_LIMITS_H_
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -22,6 +23,17 @@ struct TenantTable {
   const TenantLimits& Of(const std::string& tenant) const {
     const auto found = named.find(tenant);
     return found == named.end() ? each : found->second;
+  }
+
+  // Whether a tenant has a share of the places instead of a limit of its own.
+  bool Shares(const std::string& tenant) const {
+    return Of(tenant).max_jobs == 0 && named.size() > 1;
+  }
+  // The most of `places` that a tenant may take: its limit, or half of what others leave, or all.
+  int MostPlaces(const std::string& tenant, int places, int taken_by_others) const {
+    const int own = Of(tenant).max_jobs;
+    if (own > 0) return std::min(own, places);
+    return Shares(tenant) ? (places - taken_by_others + 1) / 2 : places;
   }
 };
 

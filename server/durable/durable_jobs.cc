@@ -201,15 +201,13 @@ absl::Status DurableJobs::CheckRoomForJob(const std::string& tenant) const {
     return CallError(Reason::kQueueFull, absl::StrCat("all ", options_.max_unfinished_jobs,
                                                       " places for jobs are taken"));
   }
-  const int cap = tenants.Of(tenant).max_jobs;
-  const bool shares = cap == 0 && tenants.named.size() > 1;
-  const int half = (options_.max_unfinished_jobs - (all - own) + 1) / 2;
-  if (cap == 0 && !shares) return absl::OkStatus();
-  if (own < (shares ? half : cap)) return absl::OkStatus();
-  return CallError(Reason::kQueueFull,
-                   absl::StrCat(own, " durable jobs are receiving, waiting or running, the limit ",
-                                "for this tenant's jobs together is ", shares ? half : cap,
-                                shares ? ", half of what other tenants leave" : ""));
+  const int most = tenants.MostPlaces(tenant, options_.max_unfinished_jobs, all - own);
+  if (own < most) return absl::OkStatus();
+  return CallError(
+      Reason::kQueueFull,
+      absl::StrCat(own, " durable jobs are receiving, waiting or running, the limit ",
+                   "for this tenant's jobs together is ", most,
+                   tenants.Shares(tenant) ? ", half of what other tenants leave" : ""));
 }
 
 void DurableJobs::Apply(const Step& step) {
