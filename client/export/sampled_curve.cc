@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include "core/distance/places.h"
 #include "core/skeleton/skeleton_figures.h"
 
 namespace bccskel::exporting {
@@ -39,8 +40,7 @@ Curve Resampled(const Curve& curve, size_t steps) {
 }
 
 double StepOf(const Placement& placement) {
-  const auto [least, most] = std::ranges::minmax(placement.spacing);
-  return std::max(2 * least, most / 8);
+  return 2 * std::ranges::min(placement.spacing) * CoarsenessOf(AxisScaleOf(placement));
 }
 
 Curve Sampled(const SkeletonGraph& graph, const SkeletonEdge& edge,
