@@ -1,6 +1,7 @@
 // Any bytes as a mesh file: an error or a mesh whose indices hold, never a crash; and any mesh
-// filled with a few points, of which keeping thin parts takes none away; open ones, near whose
-// holes every row is slow, are refused.
+// filled with a few points, of which keeping thin parts takes none away. Slivers cross a hundred
+// million rows per fill, so each fill has a deadline, which it must keep.
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -14,20 +15,26 @@ namespace {
 using bccskel::ThinParts;
 using bccskel::TriangleMesh;
 
+auto FillWithin(const TriangleMesh& mesh, const bccskel::VoxelizeOptions& options) {
+  bccskel::exec::Context context;
+  context.deadline = bccskel::exec::Context::Clock::now() + std::chrono::milliseconds(500);
+  return Voxelize(mesh, options, context);
+}
+
 void Fill(const TriangleMesh& mesh) {
   constexpr size_t kMostTriangles = 1000;
   if (mesh.triangles.size() > kMostTriangles) return;
   bccskel::VoxelizeOptions options = {.points = 300, .max_points = 100'000};
-  const auto kept = Voxelize(mesh, options, {});
+  const auto kept = FillWithin(mesh, options);
   if (!kept.ok()) return;
   const auto& spacing = kept->volume.placement().spacing;
   options.points.reset();
   options.spacing = spacing[0];
   options.topology = bccskel::TopologyCheck::kSkip;
   options.thin_parts = ThinParts::kSample;
-  const auto sampled = Voxelize(mesh, options, {});
+  const auto sampled = FillWithin(mesh, options);
   options.thin_parts = ThinParts::kKeep;
-  const auto whole = Voxelize(mesh, options, {});
+  const auto whole = FillWithin(mesh, options);
   if (!sampled.ok() || !whole.ok()) return;
   if (whole->volume.PointCount() != sampled->volume.PointCount() + whole->added_points) {
     std::abort();
