@@ -1,6 +1,6 @@
 // Any bytes as a mesh file: an error or a mesh whose indices hold, never a crash; and any mesh
-// filled with a few points, of which keeping thin parts takes none away. Slivers cross a hundred
-// million rows per fill, so each fill has a deadline, which it must keep.
+// filled with a few points, of which keeping thin parts takes none away; open ones are refused.
+// Slivers cross a hundred million rows per fill, so each fill has a deadline, which it must keep.
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
