@@ -1,6 +1,6 @@
 #include "core/pruning/limb_anchor.h"
 
-#include <span>
+#include <cmath>
 #include <utility>
 
 namespace bccskel {
@@ -13,6 +13,7 @@ constexpr double kBendRadii = 0.35;   // a limb bends that leaves the straight w
 constexpr double kBendMargin = 2;     // and lattice units
 constexpr size_t kBendStride = 8;     // points between checks
 constexpr size_t kBendSamples = 16;
+constexpr size_t kLeastOnArc = 5;  // points
 
 // Position of the last point, within a cap at the end, up to which the radius certainly follows a
 // ridge: beyond it the path may turn into a corner. The end comes first.
@@ -28,6 +29,12 @@ size_t RidgeEnd(const ThinSet& set, std::span<const LatticePoint> points) {
     most = radius - kRidgeSlope * length;
   }
   return ridge_end;
+}
+
+// How far p lies from a in the direction of q, by the law of cosines.
+double AlongFrom(const ThinSet& set, LatticePoint a, LatticePoint q, LatticePoint p) {
+  const double ap = set.Between(a, p), pq = set.Between(p, q), aq = set.Between(a, q);
+  return (ap * ap + aq * aq - pq * pq) / (2 * aq);
 }
 
 // Whether points whose ends are at least this far apart deviate from a straight line by more than a
@@ -47,14 +54,24 @@ bool Bends(const ThinSet& set, std::span<const LatticePoint> points, double leas
   return farthest > allowed * allowed;
 }
 
+// The position before which the anchor lies: beyond the points, at the junction. A path without one
+// leads to another end, where it may turn into a corner, too: there it is where the ridge begins.
+size_t FarthestAnchor(const ThinSet& set, const FreeBranch& branch) {
+  const size_t size = branch.points.size();
+  if (branch.junction.has_value()) return size;
+  const std::vector<LatticePoint> back(branch.points.rbegin(), branch.points.rend());
+  return std::max(size - 1 - RidgeEnd(set, back), size / 2);
+}
+
 }  // namespace
 
 LatticePoint TakeAnchor(const ThinSet& set, double step, FreeBranch& branch) {
   std::vector<LatticePoint>& points = branch.points;
   const size_t front = RidgeEnd(set, points);
+  const size_t farthest = FarthestAnchor(set, branch);
   double length = 0;
   float radius = set.RadiusOf(points[0]);
-  for (size_t n = 1; n < points.size(); ++n) {
+  for (size_t n = 1; n < farthest; ++n) {
     length += set.Between(points[n - 1], points[n]);
     radius = std::max(radius, set.RadiusOf(points[n]));
     const bool is_far = length >= kAnchorRadii * radius + kAnchorSteps * step;
@@ -67,14 +84,49 @@ LatticePoint TakeAnchor(const ThinSet& set, double step, FreeBranch& branch) {
     return anchor;
   }
   if (branch.junction.has_value()) return *branch.junction;
-  const LatticePoint middle = points[points.size() / 2];
-  points.resize(points.size() / 2);
-  return middle;
+  const LatticePoint anchor = points[farthest];
+  points.resize(farthest);
+  return anchor;
 }
 
-double AlongFrom(const ThinSet& set, LatticePoint a, LatticePoint q, LatticePoint p) {
-  const double ap = set.Between(a, p), pq = set.Between(p, q), aq = set.Between(a, q);
-  return (ap * ap + aq * aq - pq * pq) / (2 * aq);
+std::optional<Coordinates> DirectionOnArc(const ThinSet& set, std::span<const LatticePoint> points,
+                                          double ahead, double most_off) {
+  if (points.size() < kLeastOnArc) return std::nullopt;
+  const auto count = static_cast<double>(points.size());
+  std::vector<double> at = {0};  // lengths along the curve
+  double mean = 0;
+  for (size_t n = 1; n < points.size(); ++n) {
+    at.push_back(at.back() + set.Between(points[n - 1], points[n]));
+    mean += at.back() / count;
+  }
+  // In u, the way from the mean in half lengths, 1, u and bow(u) are orthogonal polynomials.
+  const double half = at.back() / 2;
+  double squares = 0, cubes = 0;
+  for (double& u : at) {
+    u = (u - mean) / half;
+    squares += u * u;
+    cubes += u * u * u;
+  }
+  const double skew = cubes / squares;
+  const auto bow = [&](double u) { return u * u - skew * u - squares / count; };
+  Coordinates middle = {}, slope = {}, bend = {};
+  double weight = 0;
+  for (size_t n = 0; n < points.size(); ++n) {
+    const Coordinates place = set.Way(points[0], points[n]);
+    middle = Sum(middle, 1 / count, place);
+    slope = Sum(slope, at[n] / squares, place);
+    bend = Sum(bend, bow(at[n]), place);
+    weight += bow(at[n]) * bow(at[n]);
+  }
+  bend = Sum({}, 1 / weight, bend);
+  double off = 0;  // squared
+  for (size_t n = 0; n < points.size(); ++n) {
+    const Coordinates fitted = Sum(Sum(middle, at[n], slope), bow(at[n]), bend);
+    const Coordinates rest = Sum(set.Way(points[0], points[n]), -1, fitted);
+    off += Dot(rest, rest) / count;
+  }
+  if (off >= most_off * most_off * Dot(bend, bend)) return std::nullopt;
+  return Unit(Sum(slope, 2 * (at.back() + ahead / half) - skew, bend));
 }
 
 }  // namespace bccskel

@@ -3,15 +3,19 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
+#include <span>
 #include <vector>
 
+#include "core/distance/places.h"
 #include "core/pruning/branch_walk.h"
 #include "core/pruning/thin_set.h"
 
 namespace bccskel {
 
 // Placing a tip removes at most a path into a cap or a corner: so many radii plus lattice units.
-inline constexpr double kCutRadii = 1.75;
+// The corners of a bar with three equal sides are sqrt(5) radii away.
+inline constexpr double kCutRadii = 2.3;
 inline constexpr double kCutMargin = 6;
 // Where the radius falls by less per unit, the path certainly follows a ridge.
 inline constexpr double kRidgeSlope = 0.3;
@@ -19,13 +23,19 @@ inline constexpr double kRidgeSlope = 0.3;
 inline constexpr double kLeastAim = 4;
 
 // The point from which the direction of a limb is measured: four radii and 5 steps back from its
-// end, or the junction, or the middle of a path without one. Where the limb bends, it lies no
-// farther back than the limb is straight. Keeps the branch's points between its end and the anchor.
+// end, or the junction, or where the ridge begins at the other end of a path without one. Where the
+// limb bends, it lies no farther back than the limb is straight. Keeps the branch's points between
+// its end and the anchor.
 // Shapes: `step` is the longest step along an axis, in lattice units.
 LatticePoint TakeAnchor(const ThinSet& set, double step, FreeBranch& branch);
 
-// How far p lies from a in the direction of q, by the law of cosines.
-double AlongFrom(const ThinSet& set, LatticePoint a, LatticePoint q, LatticePoint p);
+// The direction, of length 1, of an arc through the points of a limb, `ahead` units behind the last
+// of them: there a limb cut flat has its face. The arc is the parabola of least squares. None if
+// the points lie off it by more than `most_off` of its height (root mean square): then they are
+// straight but for the lattice and noise, or form no arc.
+// Shapes: `ahead` is in lattice units.
+std::optional<Coordinates> DirectionOnArc(const ThinSet& set, std::span<const LatticePoint> points,
+                                          double ahead, double most_off);
 
 // Needs: at least one value.
 inline double MedianOf(std::vector<float> values) {

@@ -24,15 +24,21 @@ namespace {
 constexpr double kSlope = 0.75;
 constexpr double kGainBySteps = 0.42;  // a tip farther out is better by so many surface steps
 constexpr double kGainByNoise = 0.06;  // and this share of the noise allowance, or noise made it
+constexpr double kAimRadii = 1.75;     // as kCutRadii, for the point that shows the direction
+constexpr double kLimb = 0.45;         // least ratio of a run that shows where a limb begins
 constexpr double kHairLength = 6;  // in lattice units; longer ends of single points are thin limbs,
 constexpr double kHairRadii = 2;   // and what is longer by the limb's radius
 constexpr size_t kHeadingPoints = 10;  // whose direction is the way ahead
 constexpr double kLeastCosine = 0.4;   // between the way ahead and a step
 constexpr double kCosineWeight = 0.5;  // against the rise of the distance
-constexpr double kGrowthMargin = 6;    // a tip grows by this and the radius at the limb's root
-constexpr double kPatience = 4;        // how far below the best a growing tip may fall
-constexpr int kMajority = 7;           // of 14 neighbors, with the point itself
-constexpr int kThinner = 3;            // in thin limbs: so many fewer than their points have
+constexpr double kGrowthRadii = 2;   // of the limb's root: how far tips grow, as to a cone's point,
+constexpr double kGrowthMargin = 6;  // and lattice units
+constexpr double kLongStep = 2;  // on lattices with longer steps by one radius: caps are too coarse
+constexpr double kOffArc = 0.25;  // of its points from the arc of a bent limb, of its height
+constexpr double kOffArcAtRoot = kOffArc / 2;  // where the arc begins with the limb
+constexpr double kPatience = 4;                // how far below the best a growing tip may fall
+constexpr int kMajority = 7;                   // of 14 neighbors, with the point itself
+constexpr int kThinner = 3;  // in thin limbs: so many fewer than their points have
 
 class TipPlacer {
  public:
@@ -64,8 +70,9 @@ class TipPlacer {
     path_.assign(branch.points.rbegin(), branch.points.rend());
     FindMajority();
     CutHair();
-    const size_t first = FirstCut();
-    aim_ = set_.Between(anchor_, path_[first]) < kLeastAim * step_ ? path_.back() : path_[first];
+    origin_ = anchor_;
+    direction_ = Unit(set_.Way(anchor_, AimFrom(FirstCut(kAimRadii))));
+    const size_t first = FirstCut(kCutRadii);
     GrowAnew(first);
     CutAfter(SafestFrom(first));
     MeasureGrown();
@@ -84,7 +91,11 @@ class TipPlacer {
       points.erase(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(points.size() / 2));
     }
     for (LatticePoint p : points) path.radii.push_back(set_.RadiusOf(p));
-    root_ = points.size() < 2 ? points[0] : points[LargestRun(set_, path, noise_).from];
+    root_ = points[0];
+    if (points.size() >= 2) {
+      const Run run = LargestRun(set_, path, noise_);
+      if (run.ratio >= kLimb) root_ = points[run.from];
+    }
     root_radius_ = set_.RadiusOf(root_);
   }
 
@@ -122,7 +133,7 @@ class TipPlacer {
     return GrowAlong(tip.middle, tip.from, may_add, path_, set_);
   }
 
-  double Along(LatticePoint p) const { return AlongFrom(set_, anchor_, aim_, p); }
+  double Along(LatticePoint p) const { return Dot(direction_, set_.Way(origin_, p)); }
 
   double Merit(LatticePoint p, double slope = kSlope) { return slope * Along(p) + depth_.At(p); }
   // An upper bound of Merit(), also in floating point, where sums and products are monotonic.
@@ -156,6 +167,23 @@ class TipPlacer {
     }
   }
 
+  // A point in the direction of the limb from the anchor, not so near that the lattice decides: the
+  // first that may become the tip, or the last on the ridge, behind which the path may turn.
+  LatticePoint AimFrom(size_t first) {
+    const double least = kLeastAim * step_;
+    if (set_.Between(anchor_, path_[first]) >= least) return path_[first];
+    LatticePoint aim = path_.back();
+    double most = 0;
+    for (size_t n = first; n < path_.size(); ++n) {
+      const double way = set_.Between(anchor_, path_[n]);
+      const double merit = kRidgeSlope * way + set_.RadiusOf(path_[n]);
+      if (way < least || merit <= most) continue;
+      most = merit;
+      aim = path_[n];
+    }
+    return aim;
+  }
+
   int NeighborsOf(LatticePoint p) {
     return static_cast<int>(std::ranges::count_if(
         kDirections14, [&](LatticePoint offset) { return bricks_.Contains(p + offset); }));
@@ -182,20 +210,21 @@ class TipPlacer {
     if (IsFirm(path_[last]) && length <= longest) CutAfter(last);
   }
 
-  // Position in the path of the first point that may become the tip. The points cut off must lie in
-  // the cap around the new tip, and the new tip must lie in the limb, not in a body behind a short
+  // Position in the path of the first point that may become the tip. The end must lie in the cap
+  // around the new tip, and the new tip must lie in the limb, not in a body behind a short
   // limb or in a bead, whose distances are larger.
-  size_t FirstCut() {
+  size_t FirstCut(double radii) {
     size_t first = path_.size() - 1;
-    while (first > 0 && path_[first] != root_ && IsInCapOf(path_[first - 1])) --first;
+    for (size_t n = first; n > 0 && path_[n] != root_; --n) {
+      if (IsInCapOf(path_[n - 1], radii)) first = n - 1;
+    }
     return last_limb_.BeginIn(set_, path_, first);
   }
 
   // The depth is at least the radius, so testing the radius is usually enough.
-  bool IsInCapOf(LatticePoint p) {
+  bool IsInCapOf(LatticePoint p, double radii) {
     const double way = set_.Between(path_.back(), p);
-    return way <= kCutRadii * set_.RadiusOf(p) + kCutMargin ||
-           way <= kCutRadii * depth_.At(p) + kCutMargin;
+    return way <= radii * set_.RadiusOf(p) + kCutMargin || way <= radii * depth_.At(p) + kCutMargin;
   }
 
   // Thinning may leave the ridge before the limb ends, so the path is grown again from the last
@@ -203,14 +232,30 @@ class TipPlacer {
   void GrowAnew(size_t first) {
     if (!IsFirm(path_.back())) return;
     CutAfter(BestFrom(first, kRidgeSlope));
+    FollowBend();
     Extend();
+  }
+
+  // A bent limb has turned away from the direction in which it left its anchor.
+  void FollowBend() {
+    std::vector<LatticePoint> limb = {anchor_};
+    limb.insert(limb.end(), path_.begin(), path_.end());
+    const auto root = std::ranges::find(limb, root_);
+    const double most_off = root == limb.end() ? kOffArc : kOffArcAtRoot;
+    if (root != limb.end()) limb.erase(limb.begin(), root);
+    const std::optional<Coordinates> bent =
+        DirectionOnArc(set_, limb, set_.RadiusOf(limb.back()), most_off);
+    if (!bent.has_value()) return;
+    origin_ = limb.back();
+    direction_ = *bent;
   }
 
   void Extend() {
     balls_.SetOwn(own_);
     double best = Merit(path_.back());
     const LatticePoint start = path_.back();
-    const double longest = root_radius_ + kGrowthMargin;
+    const double radii = step_ < kLongStep ? kGrowthRadii : 1;
+    const double longest = radii * root_radius_ + kGrowthMargin;
     while (const std::optional<LatticePoint> next = NextTip()) {
       if (!IsFirm(*next) || set_.Between(*next, start) > longest || IsInBallOfAnother(*next)) break;
       Append(*next);
@@ -311,7 +356,8 @@ class TipPlacer {
   double root_radius_ = 0;
   int majority_ = kMajority;  // in this limb
   LatticePoint anchor_;
-  LatticePoint aim_;                // the limb runs from the anchor to here
+  LatticePoint origin_;             // of the way along the limb
+  Coordinates direction_ = {};      // of the limb's end, of length 1
   std::vector<LatticePoint> path_;  // from the anchor, which is not part of it, to the tip
   std::vector<Step> steps_;         // from the tip, the most promising first
 };

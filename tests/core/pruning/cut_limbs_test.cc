@@ -1,0 +1,87 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+
+#include "core/pipeline/skeletonize.h"
+#include "tests/support/volume_where.h"
+
+namespace bccskel {
+namespace {
+
+// The points of a cube that lie in the solid, turned about the cube's middle, which is its origin.
+Volume Sampled(const std::function<bool(const WorldPoint&)>& contains, int32_t cells, double turn) {
+  const double c = std::cos(turn), s = std::sin(turn);
+  return test::VolumeWhere({cells, cells, cells}, [&](int32_t i, int32_t j, int32_t k) {
+    const double x = i - cells, y = j - cells, z = k - cells;
+    const double once = s * x + c * y;
+    return contains({c * x - s * y, c * once - s * z, s * once + c * z});
+  });
+}
+
+// The radii of the ends of a path, in lattice units, the smaller first.
+std::array<double, 2> EndRadiiOf(const Volume& object) {
+  const auto result = Skeletonize(object, {}, {});
+  EXPECT_TRUE(result.ok()) << result.status();
+  const SkeletonGraph& graph = result->graph;
+  EXPECT_EQ(graph.nodes.size(), 2u);
+  if (graph.nodes.size() != 2) return {0, 0};
+  const double scale = 2;  // a spacing of 1 is two units
+  const double a = scale * graph.RadiusOf(graph.nodes[0].at);
+  const double b = scale * graph.RadiusOf(graph.nodes[1].at);
+  return {std::min(a, b), std::max(a, b)};
+}
+
+// The axis ends a radius before the face. From the way that the limb came, its rim is straight on.
+TEST(CutLimbs, ThatBendEndOnTheirAxes) {
+  constexpr double kRadius = 12;
+  for (const double bend : {3.0, 4.0, 5.0}) {  // radii
+    const auto half_ring = [&](const WorldPoint& p) {
+      const double out = std::hypot(p[0], p[1]) - bend * kRadius;
+      return p[0] >= 0 && std::hypot(out, p[2]) <= kRadius;
+    };
+    for (const double turn : {0.3, 0.7, 1.1}) {
+      const auto [least, most] = EndRadiiOf(Sampled(half_ring, 76, turn));
+      EXPECT_GT(least, 0.8 * kRadius) << bend << ' ' << turn;
+      EXPECT_LT(most, 1.1 * kRadius);
+    }
+  }
+}
+
+// Thinning leads the path into a corner, sqrt(5) radii from where it should end.
+TEST(CutLimbs, WithThreeSidesEndOnTheirAxes) {
+  constexpr double kRadius = 22;                 // inscribed
+  for (const double half_length : {2.5, 4.0}) {  // radii
+    const auto bar = [&](const WorldPoint& p) {
+      const double z = std::sqrt(3) / 2 * std::abs(p[2]);
+      return p[1] <= kRadius && z - 0.5 * p[1] <= kRadius &&
+             std::abs(p[0]) <= half_length * kRadius;
+    };
+    EXPECT_GT(EndRadiiOf(Sampled(bar, 100, 0.4))[0], 0.8 * kRadius) << half_length;
+  }
+}
+
+// Thinning leads the path to the rim of the wide face, which is no limb with a root, and stops far
+// from the point.
+TEST(CutLimbs, ThatWidenEndInTheLargestBall) {
+  constexpr double kRadius = 40, kLength = 80, kBlunt = 4;
+  // The hull of two balls, cut through the middle of the larger one.
+  const double steep = (kRadius - kBlunt) / kLength, flat = std::sqrt(1 - steep * steep);
+  const auto cone = [&](const WorldPoint& p) {
+    const double along = p[0] + kLength / 2, across = std::hypot(p[1], p[2]);
+    const double t = std::clamp((along - across * steep / flat) / kLength, 0.0, 1.0);
+    const double radius = kRadius + t * (kBlunt - kRadius);
+    return along >= 0 && std::hypot(along - t * kLength, across) <= radius;
+  };
+  for (const double turn : {0.4, 0.6, 1.3, 1.5}) {
+    const auto [least, most] = EndRadiiOf(Sampled(cone, 60, turn));
+    EXPECT_GT(most, 0.6 * kRadius) << turn;
+    EXPECT_LT(least, 1.6 * kBlunt) << turn;
+  }
+}
+
+}  // namespace
+}  // namespace bccskel
