@@ -19,7 +19,8 @@ constexpr double kCutWidths = 1.75;
 constexpr double kAboutAsWide = 0.7;  // as the largest width: the end itself is narrow
 constexpr double kAsWide = 0.9;
 constexpr double kAsWideMargin = 1;
-constexpr double kLeastLimb = 0.4;  // of the largest width: the limb before its end
+constexpr double kLeastLimb = 0.3;  // of the largest width: the limb before its end
+constexpr double kLeastKept = 0.4;  // of the same, from where the limb begins: not walked again
 constexpr double kAimWidths = 2;    // the limb's direction is that of so much of it
 constexpr double kLeastStride = 1;
 constexpr double kStride = 8;          // places in a width
@@ -67,8 +68,7 @@ std::optional<FlatEnd::Tip> FlatEnd::In(std::span<const LatticePoint> path, cons
   const size_t aim = std::ranges::find_if(places, [&](const Place& p) {
                        return p.width >= kAsWide * widest - kAsWideMargin;
                      })->position;
-  const double least = kLeastLimb * widest;
-  if (set.Between(path[0], path[aim]) < least) return std::nullopt;
+  if (set.Between(path[0], path[aim]) < kLeastLimb * widest) return std::nullopt;
   const auto before_aim = [&](double far, double least_limb) {
     size_t n = aim;
     while (n > 0 && set.Between(path[n], path[aim]) < far &&
@@ -79,7 +79,7 @@ std::optional<FlatEnd::Tip> FlatEnd::In(std::span<const LatticePoint> path, cons
   };
   const Coordinates start = PlaceOf(path[before_aim(kAimWidths * widest, 0)], scale_);
   const Coordinates way = Unit(Sum(PlaceOf(path[aim], scale_), -1, start));
-  Tip tip{.from = before_aim(kWalkWidths * widest, least), .middle = {}};
+  Tip tip{.from = before_aim(kWalkWidths * widest, kLeastKept * widest), .middle = {}};
   double most = -std::numeric_limits<double>::infinity();
   for (const Place& p : places) {
     const Coordinates out = Sum(PlaceOf(path[p.position], scale_), -1, start);

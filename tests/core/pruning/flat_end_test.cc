@@ -207,6 +207,29 @@ TEST(FlatEnd, LeavesThePlateItsCorners) {
   for (const Vector& end : ends) EXPECT_GT(Length(end), 65);
 }
 
+// A tooth on a bar, whose noise makes it begin late. Ends lay in its corners.
+TEST(FlatEnd, LiesInTheMiddleOfAShortTooth) {
+  const struct {
+    double width, turn;
+    uint64_t seed;
+  } teeth[] = {{15, 0.62, 1}, {15, 0.88, 2}, {15, 1.01, 3}, {24, 1.53, 3}};
+  for (const auto& [width, turn, seed] : teeth) {
+    const Turned bar = {
+        .turn = turn, .reach = 5 * width, .inside = [width = width](Vector at) {
+          const bool in_tooth = at.x >= 0 && at.x <= 2.6 * width && std::abs(at.z) <= width &&
+                                std::abs(at.y) <= 0.4 * width;
+          return in_tooth || (std::hypot(at.x, at.z) <= width && std::abs(at.y) <= 4.6 * width);
+        }};
+    int found = 0;
+    for (const Vector& end : bar.Ends(0.05, seed)) {
+      if (end.x <= 1.1 * width) continue;
+      ++found;
+      EXPECT_LT(std::abs(end.z), 0.4 * width) << turn;
+    }
+    EXPECT_EQ(found, 1) << turn;
+  }
+}
+
 // A ball that an error of units has turned into a disk a million times as wide as thick.
 TEST(FlatEnd, IsFoundInBoundedTimeWhateverTheSpacings) {
   constexpr int32_t kEdge = 40;
