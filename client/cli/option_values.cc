@@ -90,6 +90,9 @@ std::string InWords(const std::string& error) {
     return absl::StrCat(words[3], " ", given, ": must be a ",
                         absl::SimpleAtod(given, &value) ? "whole number" : "number");
   }
+  if (words.size() == 8 && words[1] == "At" && words[3] == "1") {
+    return absl::StrCat(words[0], " given ", words[7], " times, but takes one value");
+  }
   if (words.size() == 8 && words[1] == "At" && words[4] == "required") {
     return absl::StrCat(words[0], " needs ", words[3], " numbers separated by commas, not ",
                         words[7]);

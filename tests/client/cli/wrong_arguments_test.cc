@@ -141,6 +141,8 @@ const Wrong kWrong[] = {
      "--threshold high: must be a number"},
     {"voxels_of_two_sizes", "skeletonize a.tif -o a.swc --voxel-size 1,2",
      "--voxel-size: needs 3 numbers separated by commas, not 2"},
+    {"points_given_twice", "skeletonize a.stl -o a.swc --points 1000 --points 2000",
+     "--points: given 2 times, but takes one value"},
     {"voxels_without_size", "skeletonize a.tif -o a.swc --voxel-size 1,0,1",
      "--voxel-size: must be finite and positive, not 0"},
     {"negative_label_of_many", "labels a.tif -o a.vtp --labels -5",
