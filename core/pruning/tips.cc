@@ -15,6 +15,7 @@
 #include "core/pruning/largest_run.h"
 #include "core/pruning/last_limb.h"
 #include "core/pruning/limb_anchor.h"
+#include "core/pruning/pruning_defaults.h"
 
 namespace bccskel {
 namespace {
@@ -25,7 +26,6 @@ constexpr double kSlope = 0.75;
 constexpr double kGainBySteps = 0.42;  // a tip farther out is better by so many surface steps
 constexpr double kGainByNoise = 0.06;  // and this share of the noise allowance, or noise made it
 constexpr double kAimRadii = 1.75;     // as kCutRadii, for the point that shows the direction
-constexpr double kLimb = 0.45;         // least ratio of a run that shows where a limb begins
 constexpr double kHairLength = 6;  // in lattice units; longer ends of single points are thin limbs,
 constexpr double kHairRadii = 2;   // and what is longer by the limb's radius
 constexpr size_t kHeadingPoints = 10;  // whose direction is the way ahead
@@ -94,7 +94,7 @@ class TipPlacer {
     root_ = points[0];
     if (points.size() >= 2) {
       const Run run = LargestRun(set_, path, noise_);
-      if (run.ratio >= kLimb) root_ = points[run.from];
+      if (run.ratio >= WithDefaults({}).threshold) root_ = points[run.from];
     }
     root_radius_ = set_.RadiusOf(root_);
   }
