@@ -15,7 +15,7 @@ constexpr double kWidthShare = 2.2;     // of what the object is wider than thic
 constexpr double kNoiseMargin = 2;      // lattice units more, as noise goes off the square
 constexpr double kSureRatio = 2;        // above, what lies beyond the end does not matter
 constexpr double kLeastRatio = 0.2;     // below, the width is not looked at: the branch is a bump
-constexpr double kLeastFine = 0.35;     // below, the width is looked at in few directions
+constexpr double kLeastFine = 0.35;     // below, the value is rough
 constexpr size_t kRoots = 7;            // of the places, the first: there the limb may begin
 constexpr size_t kNearTip = 9;          // of the places
 constexpr double kLongestRay = 400;
@@ -182,8 +182,9 @@ double Significance::ValueAtMost(const ThinSet& set, const BranchPath& path, con
   return most;
 }
 
-// The width near the tip stands in for the walls until the sections are refined. That makes none
-// narrower, so the bounds hold; circles in walls are inscribed only where they may decide.
+// Refining makes no section narrower, so the bounds hold. It stops when they say that the branch
+// goes: most branches of a plate are hair. Circles in walls are inscribed only where they may
+// decide.
 double Significance::ValueOf(const ThinSet& set, const BranchPath& path, const Run& run,
                              double least) {
   const Coordinates along = set.Way(path.points[run.from], path.points[run.to]);
@@ -193,19 +194,32 @@ double Significance::ValueOf(const ThinSet& set, const BranchPath& path, const R
   const CrossSection& near_tip = sections[kNearTip];
   const double width_near_tip = near_tip.radius + WiderThanThick(near_tip);
   std::vector<Part> parts = PartsOf(set, path, run, sections);
-  double value = -std::numeric_limits<double>::infinity();
-  for (const Part& part : parts) {
-    const double narrower = sections[part.root].radius + part.wider - width_near_tip;
-    value = std::max(value, ValueOf(part, sections, narrower));
+  const double rough = RoughValueOf(parts, sections, width_near_tip);
+  if (rough < kLeastFine || parts.front().bound <= least) return rough;
+  for (size_t place = kPlaces; place-- > 0;) {
+    sections_.Refine(reach, sections[place]);
+    if (place > kPlaces / 2) continue;  // the medians are still those of sections not refined
+    parts = PartsOf(set, path, run, sections);
+    if (parts.front().bound <= std::max(least, kLeastFine)) {
+      return RoughValueOf(parts, sections, width_near_tip);
+    }
   }
-  if (value < kLeastFine || parts.front().bound <= least) return value;
-  for (CrossSection& section : sections) sections_.Refine(reach, section);
-  parts = PartsOf(set, path, run, sections);
-  value = least;
+  double value = least;
   for (const Part& part : parts) {
     if (part.bound <= value) break;
     const double at_root = sections_.Inscribed(sections[part.root]);
     const double narrower = kWallSteepness * (at_root - sections_.Inscribed(sections[part.tip]));
+    value = std::max(value, ValueOf(part, sections, narrower));
+  }
+  return value;
+}
+
+// The width near the tip stands in for the walls.
+double Significance::RoughValueOf(const std::vector<Part>& parts, const Sections& sections,
+                                  double width_near_tip) const {
+  double value = -std::numeric_limits<double>::infinity();
+  for (const Part& part : parts) {
+    const double narrower = sections[part.root].radius + part.wider - width_near_tip;
     value = std::max(value, ValueOf(part, sections, narrower));
   }
   return value;

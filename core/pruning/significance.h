@@ -96,9 +96,12 @@ class Significance {
   const Verdict* Known(const FreeBranch& branch) const;
   Run RunOf(const ThinSet& set, BranchPath& path);
   void LookPastPits(BranchPath& path);
-  // The value of a run without the factor `uncovered`; not exact if it is at most `least`.
+  // The value of a run without the factor `uncovered`; not exact if it is at most `least`, and
+  // rough if it is so small that the branch goes.
   double ValueOf(const ThinSet& set, const BranchPath& path, const Run& run,
                  double least = -std::numeric_limits<double>::infinity());
+  double RoughValueOf(const std::vector<Part>& parts, const Sections& sections,
+                      double width_near_tip) const;
   double BeyondNoise(double elongation, double radius, const Coordinates& way) const;
   // An upper bound of ValueOf() without rays; it holds in floating point, too.
   double ValueAtMost(const ThinSet& set, const BranchPath& path, const Run& run) const;
