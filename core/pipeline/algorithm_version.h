@@ -7,10 +7,10 @@ namespace bccskel {
 
 // Changes whenever the same volume and options may give a different skeleton. Part of the key of
 // stored results.
-inline constexpr char kAlgorithmVersion[] = "23";
+inline constexpr char kAlgorithmVersion[] = "24";
 
 // The same for masks; it also changes with their conversion.
-inline constexpr char kMaskAlgorithmVersion[] = "23.mask-7";
+inline constexpr char kMaskAlgorithmVersion[] = "24.mask-7";
 
 constexpr const char* AlgorithmVersionOf(ObjectSource source) {
   return source == ObjectSource::kPoints ? kAlgorithmVersion : kMaskAlgorithmVersion;

@@ -24,18 +24,21 @@ struct MeanRange {
 };
 MeanRange RangeOfMean(size_t size, size_t n, CurveShape shape);
 
-// The mean of value n of a curve and up to four values on either side. The first and last value of
-// an open curve do not change. `value_at(n)` returns a value.
+// The mean of value n of a curve and up to four values on either side, the two farthest of which
+// count half: so it removes zigzag of two and four points, which thinning leaves where the middle
+// of a limb lies between lattice points. The first and last value of an open curve do not change.
+// `value_at(n)` returns a value.
 template <typename ValueAt>
 Coordinates MeanAt(ValueAt value_at, size_t size, size_t n, CurveShape shape) {
   const MeanRange range = RangeOfMean(size, n, shape);
-  Coordinates mean = {0, 0, 0};
-  for (size_t k = range.first; k < range.first + range.count; ++k) {
-    const Coordinates value = value_at(k % range.period);
-    for (size_t axis = 0; axis < 3; ++axis) mean[axis] += value[axis];
-  }
-  for (double& coordinate : mean) coordinate /= static_cast<double>(range.count);
-  return mean;
+  const auto value = [&](size_t k) -> Coordinates {
+    return value_at((range.first + k) % range.period);
+  };
+  const size_t last = range.count - 1;
+  if (last == 0) return value(0);
+  Coordinates sum = Sum(Sum({0, 0, 0}, 0.5, value(0)), 0.5, value(last));
+  for (size_t k = 1; k < last; ++k) sum = Sum(sum, 1, value(k));
+  return Sum({0, 0, 0}, 1 / static_cast<double>(last), sum);
 }
 
 // MeanAt() for each value along a curve.

@@ -55,6 +55,20 @@ TEST(EdgeFigures, LengthHasNoStaircaseBias) {
   }
 }
 
+// The middle of a limb of an even by an odd number of voxels lies between lattice points, and the
+// points of its curve run around it.
+TEST(EdgeFigures, LengthIsThatOfTheLineThatPointsRunAround) {
+  std::vector<LatticePoint> path = {{0, 0, 0}};
+  for (int turn = 0; turn < 200; ++turn) {
+    for (const LatticePoint& step : {LatticePoint{1, -1, 1}, {1, 1, 1}, {1, 1, -1}, {1, -1, -1}}) {
+      path.push_back(path.back() + step);
+    }
+  }
+  SkeletonGraph graph = OneEdge(path);
+  for (SkeletonPoint& p : graph.points) p.radius = 3;
+  EXPECT_NEAR(*FiguresOf(graph, graph.edges[0]).tortuosity, 1, 0.003);
+}
+
 TEST(EdgeFigures, AreInWorldUnits) {
   SkeletonGraph graph = OneEdge({{0, 0, 0}, {0, 0, 2}, {0, 0, 4}});
   graph.placement.spacing = {2, 3, 4};
