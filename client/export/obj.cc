@@ -11,8 +11,7 @@ std::string ObjText(const SkeletonGraph& graph) {
   const Polylines polylines = PolylinesOf(graph);
   Text text;
   text.Add("# curve skeleton by bccskel\n");
-  for (const SkeletonPoint& point : polylines.points) {
-    const WorldPoint p = graph.PositionOf(point);
+  for (const WorldPoint& p : polylines.places) {
     text.Add("v ", p[0], ' ', p[1], ' ', p[2], '\n');
   }
   for (const std::vector<size_t>& line : polylines.lines) {

@@ -7,8 +7,8 @@
 
 namespace bccskel::exporting {
 
-// Wavefront OBJ: one `l` element per edge, one `p` element per isolated node. World coordinates;
-// OBJ cannot hold radii.
+// Wavefront OBJ: one `l` element per edge, its smooth curve, one `p` element per isolated node.
+// World coordinates; OBJ cannot hold radii.
 std::string ObjText(const SkeletonGraph& graph);
 
 }  // namespace bccskel::exporting

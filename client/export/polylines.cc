@@ -2,6 +2,8 @@
 
 #include <span>
 
+#include "core/skeleton/skeleton_figures.h"
+
 namespace bccskel::exporting {
 namespace {
 
@@ -21,10 +23,26 @@ std::vector<size_t> LoneNodes(const SkeletonGraph& graph) {
   return lone;
 }
 
+// In the order of Polylines::points.
+std::vector<WorldPoint> SmoothPlaces(const SkeletonGraph& graph) {
+  std::vector<WorldPoint> places;
+  for (const SkeletonNode& node : graph.nodes) places.push_back(graph.PositionOf(node.at));
+  for (const SkeletonEdge& edge : graph.edges) {
+    const std::vector<WorldPoint> curve = SmoothCurve(graph, edge);
+    if (curve.empty()) continue;
+    // The only kind of node that a smooth curve moves.
+    if (graph.nodes[edge.source].kind == NodeKind::kLoop) places[edge.source] = curve.front();
+    if (curve.size() > 2) places.insert(places.end(), curve.begin() + 1, curve.end() - 1);
+  }
+  for (const SkeletonPoint& p : graph.sheets) places.push_back(graph.PositionOf(p));
+  return places;
+}
+
 }  // namespace
 
 Polylines PolylinesOf(const SkeletonGraph& graph) {
   Polylines result;
+  result.places = SmoothPlaces(graph);
   result.lone_points = LoneNodes(graph);
   for (const SkeletonNode& node : graph.nodes) result.points.push_back(node.at);
   for (const SkeletonEdge& edge : graph.edges) {

@@ -12,6 +12,7 @@ namespace bccskel::exporting {
 struct Polylines {
   // The nodes in order, then the inner points of every edge, then the points of sheets.
   std::vector<SkeletonPoint> points;
+  std::vector<WorldPoint> places;  // of the points, moved onto smooth curves
   // One per edge, in order: indices into `points`, at least two.
   std::vector<std::vector<size_t>> lines;
   // Isolated nodes, then all points of sheets: indices into `points`.

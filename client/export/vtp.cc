@@ -22,14 +22,11 @@ void AddArray(Text& text, std::string_view type, std::string_view name, WriteVal
   text.Add("</DataArray>\n");
 }
 
-void AddPoints(Text& text, const SkeletonGraph& graph, const Polylines& polylines) {
-  text.Add("<Points>\n<DataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\" ",
+void AddPlaces(Text& text, std::string_view name, const std::vector<WorldPoint>& places) {
+  text.Add("<DataArray type=\"Float64\" Name=\"", name, "\" NumberOfComponents=\"3\" ",
            "format=\"ascii\">\n");
-  for (const SkeletonPoint& point : polylines.points) {
-    const WorldPoint p = graph.PositionOf(point);
-    text.Add(p[0], ' ', p[1], ' ', p[2], '\n');
-  }
-  text.Add("</DataArray>\n</Points>\n");
+  for (const WorldPoint& p : places) text.Add(p[0], ' ', p[1], ' ', p[2], '\n');
+  text.Add("</DataArray>\n");
 }
 
 void AddCells(Text& text, std::string_view tag, const std::vector<std::vector<size_t>>& cells) {
@@ -45,20 +42,6 @@ void AddCells(Text& text, std::string_view tag, const std::vector<std::vector<si
     for (const std::vector<size_t>& cell : cells) text.Add(end += cell.size(), '\n');
   });
   text.Add("</", tag, ">\n");
-}
-
-// The positions of the points on smooth curves, in the order of Polylines::points.
-std::vector<WorldPoint> SmoothPoints(const SkeletonGraph& graph) {
-  std::vector<WorldPoint> places;
-  for (const SkeletonNode& node : graph.nodes) places.push_back(graph.PositionOf(node.at));
-  for (const SkeletonEdge& edge : graph.edges) {
-    const std::vector<WorldPoint> curve = SmoothCurve(graph, edge);
-    if (curve.empty()) continue;
-    if (graph.nodes[edge.source].kind == NodeKind::kLoop) places[edge.source] = curve.front();
-    if (curve.size() > 2) places.insert(places.end(), curve.begin() + 1, curve.end() - 1);
-  }
-  for (const SkeletonPoint& p : graph.sheets) places.push_back(graph.PositionOf(p));
-  return places;
 }
 
 void AddPointData(Text& text, const SkeletonGraph& graph, const Polylines& polylines) {
@@ -79,10 +62,10 @@ void AddPointData(Text& text, const SkeletonGraph& graph, const Polylines& polyl
       text.Add(n < graph.nodes.size() ? 1 + static_cast<int>(graph.nodes[n].kind) : 0, '\n');
     }
   });
-  text.Add("<DataArray type=\"Float64\" Name=\"smooth\" NumberOfComponents=\"3\" ",
-           "format=\"ascii\">\n");
-  for (const WorldPoint& p : SmoothPoints(graph)) text.Add(p[0], ' ', p[1], ' ', p[2], '\n');
-  text.Add("</DataArray>\n</PointData>\n");
+  std::vector<WorldPoint> lattice;
+  for (const SkeletonPoint& p : polylines.points) lattice.push_back(graph.PositionOf(p));
+  AddPlaces(text, "lattice", lattice);
+  text.Add("</PointData>\n");
 }
 
 void AddLabels(Text& text, const GraphLabels& labels, const Polylines& polylines) {
@@ -183,7 +166,9 @@ std::string VtpText(const SkeletonGraph& graph, const GraphContext& context) {
            "\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n");
   AddPointData(text, graph, polylines);
   AddCellData(text, graph, polylines, context);
-  AddPoints(text, graph, polylines);
+  text.Add("<Points>\n");
+  AddPlaces(text, "Points", polylines.places);
+  text.Add("</Points>\n");
   AddCells(text, "Verts", vertices);
   AddCells(text, "Lines", polylines.lines);
   text.Add("</Piece>\n</PolyData>\n</VTKFile>\n");

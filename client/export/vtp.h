@@ -8,11 +8,11 @@
 
 namespace bccskel::exporting {
 
-// VTK XML PolyData, version 1.0, ASCII.
+// VTK XML PolyData, version 1.0, ASCII. Lines are smooth curves inside the object.
 // Cells:       one vertex per node without edges, then one polyline per edge.
 // Point data:  radius (world units), distance (lattice units), node_kind (0 inside an edge, else
-//              1 end, 2 junction, 3 loop, 4 isolated, 5 closed surface); smooth (the place on a
-//              smooth curve inside the object).
+//              1 end, 2 junction, 3 loop, 4 isolated, 5 closed surface); lattice (the lattice
+//              point, in world coordinates).
 // Cell data:   edge_id (-1 for vertices); length, mean_radius, min_radius, max_radius (world
 //              units), tortuosity (0 for closed curves); label, where labels are given; with an
 //              order of trees generation and strahler (-1 for vertices and for edges that close

@@ -422,7 +422,10 @@ class FormatsTest(harness.TestCase):
         for number, edge in enumerate(document["edges"]):
             cell = data.GetCell(lines + number)
             points = [list(cell.GetPoints().GetPoint(n)) for n in range(cell.GetNumberOfPoints())]
-            self.assertEqual(points, edge["points"])
+            self.assertEqual(points, edge["curve"])
+            lattice = data.GetPointData().GetArray("lattice")
+            self.assertEqual([list(lattice.GetTuple(cell.GetPointId(n)))
+                              for n in range(cell.GetNumberOfPoints())], edge["points"])
             self.assertAlmostEqual(data.GetCellData().GetArray("length").GetValue(lines + number),
                                    edge["length"])
 
@@ -433,7 +436,7 @@ class FormatsTest(harness.TestCase):
             vertices = [list(map(float, w[1:])) for w in words if w[0] == "v"]
             lines = [list(map(int, w[1:])) for w in words if w[0] == "l"]
             self.assertEqual([[vertices[n - 1] for n in line] for line in lines],
-                             [edge["points"] for edge in document["edges"]])
+                             [edge["curve"] for edge in document["edges"]])
             self.assertLessEqual({w[0] for w in words}, {"v", "l", "p"})
 
     def test_svg_is_xml_with_pictures_inside(self):

@@ -10,6 +10,7 @@
 #include "client/export/obj.h"
 #include "client/export/polylines.h"
 #include "client/export/vtp.h"
+#include "core/skeleton/skeleton_figures.h"
 #include "tests/client/export/sample_skeletons.h"
 
 // What each text format holds. That programs of others read them is tested in tests/integration.
@@ -43,10 +44,23 @@ TEST(PolylinesTest, NodesComeFirstAndInnerPointsFollow) {
   EXPECT_THAT(polylines.lone_points, ElementsAre(2));
 }
 
+TEST(PolylinesTest, FollowSmoothCurves) {
+  for (const Sample& sample : Samples()) {
+    const SkeletonGraph& graph = sample.result.graph;
+    const Polylines polylines = PolylinesOf(graph);
+    for (size_t n = 0; n < graph.edges.size(); ++n) {
+      std::vector<WorldPoint> places;
+      for (size_t point : polylines.lines[n]) places.push_back(polylines.places[point]);
+      EXPECT_EQ(places, SmoothCurve(graph, graph.edges[n])) << n;
+    }
+  }
+}
+
 TEST(ObjTest, HasALinePerEdgeAndAPointPerLoneNodeInWorldCoordinates) {
   const std::string obj = ObjText(Lollipop());
-  EXPECT_THAT(LinesThatBegin(obj, "v "), ElementsAre("v 10 20 30", "v 12 22 32", "v 20 30 40",
-                                                     "v 11 21 31", "v 13 23 33", "v 14 22 32"));
+  EXPECT_THAT(LinesThatBegin(obj, "v "),
+              ElementsAre("v 10 20 30", "v 12 22 32", "v 20 30 40", "v 11 21 31", "v 13 22.5 32.5",
+                          "v 13.25 22.25 32.25"));
   EXPECT_THAT(LinesThatBegin(obj, "l "), ElementsAre("l 1 4 2", "l 2 5 6 2"));
   EXPECT_THAT(LinesThatBegin(obj, "p "), ElementsAre("p 3"));
 }
@@ -55,7 +69,7 @@ TEST(VtpTest, CountsItsPiecesAndNamesItsArrays) {
   const std::string vtp = VtpText(Lollipop());
   EXPECT_THAT(vtp, HasSubstr("NumberOfPoints=\"6\" NumberOfVerts=\"1\" NumberOfLines=\"2\""));
   for (const char* name :
-       {"radius", "distance", "node_kind", "smooth", "edge_id", "length", "mean_radius",
+       {"radius", "distance", "node_kind", "lattice", "edge_id", "length", "mean_radius",
         "min_radius", "max_radius", "tortuosity", "connectivity", "offsets"}) {
     EXPECT_THAT(vtp, HasSubstr("Name=\"" + std::string(name) + '"'));
   }
