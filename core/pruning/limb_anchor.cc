@@ -13,7 +13,10 @@ constexpr double kBendRadii = 0.35;   // a limb bends that leaves the straight w
 constexpr double kBendMargin = 2;     // and lattice units
 constexpr size_t kBendStride = 8;     // points between checks
 constexpr size_t kBendSamples = 16;
-constexpr size_t kLeastOnArc = 5;  // points
+constexpr size_t kLeastOnArc = 5;    // points
+constexpr double kWayRadii = 2;      // of the ridge, its last part shows how it leads on
+constexpr double kFreeRadii = 0.25;  // so far beside its way a tip is as good,
+constexpr double kFreeMargin = 1;    // and lattice units
 
 // Position of the last point, within a cap at the end, up to which the radius certainly follows a
 // ridge: beyond it the path may turn into a corner. The end comes first.
@@ -127,6 +130,27 @@ std::optional<Coordinates> DirectionOnArc(const ThinSet& set, std::span<const La
   }
   if (off >= most_off * most_off * Dot(bend, bend)) return std::nullopt;
   return Unit(Sum(slope, 2 * (at.back() + ahead / half) - skew, bend));
+}
+
+double WayOn::Aside(const ThinSet& set, LatticePoint p) const {
+  const Coordinates to = set.Way(from, p);
+  const double along = Dot(way, to);
+  if (along <= 0) return 0;
+  return std::max(std::sqrt(std::max(Dot(to, to) - along * along, 0.0)) - free, 0.0);
+}
+
+WayOn WayOnFrom(const ThinSet& set, double step, LatticePoint anchor,
+                std::span<const LatticePoint> path) {
+  WayOn on = {path.back()};
+  const double radius = set.RadiusOf(on.from),
+               back = std::max(kWayRadii * radius, kLeastAim * step);
+  size_t n = path.size() - 1;
+  while (n > 0 && set.Between(path[n], on.from) < back) --n;
+  const LatticePoint before = n > 0 ? path[n] : anchor;
+  if (before == on.from) return on;
+  on.way = Unit(set.Way(before, on.from));
+  on.free = kFreeRadii * radius + kFreeMargin;
+  return on;
 }
 
 }  // namespace bccskel

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -36,6 +37,22 @@ LatticePoint TakeAnchor(const ThinSet& set, double step, FreeBranch& branch);
 // Shapes: `ahead` is in lattice units.
 std::optional<Coordinates> DirectionOnArc(const ThinSet& set, std::span<const LatticePoint> points,
                                           double ahead, double most_off);
+
+// The way straight on from the end of a limb's ridge. All lengths are in lattice units.
+struct WayOn {
+  LatticePoint from;
+  Coordinates way = {};                                   // of length 1
+  double free = std::numeric_limits<double>::infinity();  // so far beside it a tip is as good
+
+  // How far p, if ahead, lies beside the way, beyond what is free. The corner of a limb cut at a
+  // slant lies as far beside it as the limb is thick.
+  double Aside(const ThinSet& set, LatticePoint p) const;
+};
+// As the last two radii of the path lead. Free are a quarter of the radius there and a unit.
+// Shapes: `path` comes from `anchor`, which is not part of it, and ends where the ridge ends;
+//         `step` as above.
+WayOn WayOnFrom(const ThinSet& set, double step, LatticePoint anchor,
+                std::span<const LatticePoint> path);
 
 // Needs: at least one value.
 inline double MedianOf(std::vector<float> values) {

@@ -71,6 +71,7 @@ class TipPlacer {
     FindMajority();
     CutHair();
     origin_ = anchor_;
+    way_on_ = {};
     direction_ = Unit(set_.Way(anchor_, AimFrom(FirstCut(kAimRadii))));
     const size_t first = FirstCut(kCutRadii);
     GrowAnew(first);
@@ -135,10 +136,12 @@ class TipPlacer {
 
   double Along(LatticePoint p) const { return Dot(direction_, set_.Way(origin_, p)); }
 
-  double Merit(LatticePoint p, double slope = kSlope) { return slope * Along(p) + depth_.At(p); }
+  double Merit(LatticePoint p, double slope = kSlope) {
+    return slope * Along(p) - way_on_.Aside(set_, p) + depth_.At(p);
+  }
   // An upper bound of Merit(), also in floating point, where sums and products are monotonic.
   double MeritAtMost(LatticePoint p, double slope = kSlope) const {
-    return slope * Along(p) + depth_.AtMost(p);
+    return slope * Along(p) - way_on_.Aside(set_, p) + depth_.AtMost(p);
   }
 
   // Position in the path of the point with the largest merit, on ties the farthest.
@@ -232,6 +235,7 @@ class TipPlacer {
   void GrowAnew(size_t first) {
     if (!IsFirm(path_.back())) return;
     CutAfter(BestFrom(first, kRidgeSlope));
+    way_on_ = WayOnFrom(set_, step_, anchor_, path_);
     FollowBend();
     Extend();
   }
@@ -247,7 +251,7 @@ class TipPlacer {
         DirectionOnArc(set_, limb, set_.RadiusOf(limb.back()), most_off);
     if (!bent.has_value()) return;
     origin_ = limb.back();
-    direction_ = *bent;
+    direction_ = way_on_.way = *bent;
   }
 
   void Extend() {
@@ -358,6 +362,7 @@ class TipPlacer {
   LatticePoint anchor_;
   LatticePoint origin_;             // of the way along the limb
   Coordinates direction_ = {};      // of the limb's end, of length 1
+  WayOn way_on_;                    // from the end of the ridge
   std::vector<LatticePoint> path_;  // from the anchor, which is not part of it, to the tip
   std::vector<Step> steps_;         // from the tip, the most promising first
 };

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <numbers>
 
 #include "core/pipeline/skeletonize.h"
 #include "tests/support/volume_where.h"
@@ -61,6 +62,26 @@ TEST(CutLimbs, WithThreeSidesEndOnTheirAxes) {
              std::abs(p[0]) <= half_length * kRadius;
     };
     EXPECT_GT(EndRadiiOf(Sampled(bar, 100, 0.4))[0], 0.8 * kRadius) << half_length;
+  }
+}
+
+// Thinning leads the path into the corner that is less than a right angle. Of a chisel, cut at 60
+// degrees, that corner is the tip.
+TEST(CutLimbs, AtASlantEndOnTheirAxes) {
+  constexpr double kRadius = 16, kHalfLength = 80;
+  for (const double slant : {20.0, 30.0}) {  // degrees
+    const double tangent = std::tan(slant * std::numbers::pi / 180);
+    for (const bool is_round : {true, false}) {
+      const auto bar = [&](const WorldPoint& p) {
+        const double across =
+            is_round ? std::hypot(p[1], p[2]) : std::max(std::abs(p[1]), std::abs(p[2]));
+        return across <= kRadius && std::abs(p[0] - tangent * p[1]) <= kHalfLength;
+      };
+      for (const double turn : {0.3, 0.8}) {
+        const double least = EndRadiiOf(Sampled(bar, 110, turn))[0];
+        EXPECT_GT(least, 0.7 * kRadius) << slant << ' ' << is_round << ' ' << turn;
+      }
+    }
   }
 }
 
