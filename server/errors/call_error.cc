@@ -153,7 +153,7 @@ absl::Status WithJobReason(const absl::Status& status) {
 
 absl::Status WithDiskReason(const absl::Status& status) {
   if (!absl::IsResourceExhausted(status) || ReasonOf(status).has_value()) return status;
-  return DiskFull("the server's disk is full", "max_disk_bytes");
+  return DiskFull("the server's disk is full", "disk");
 }
 
 absl::Status Prefixed(const std::string& what, const absl::Status& status) {

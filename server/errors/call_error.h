@@ -73,7 +73,7 @@ absl::Status InvalidField(const std::string& field, const std::string& descripti
 absl::Status InvalidVolume(const std::string& message);
 // OUT_OF_RANGE: the caller should resume at `committed_bytes`.
 absl::Status WrongOffset(const std::string& message, uint64_t committed_bytes);
-// RESOURCE_EXHAUSTED: the disk space limit `quota` is used up.
+// RESOURCE_EXHAUSTED: the disk space limit `quota` is used up, or "disk", the disk itself.
 absl::Status DiskFull(const std::string& message, const std::string& quota);
 
 // Whether the status states a reason, from CallError() or from proto/wire.
@@ -95,8 +95,8 @@ Reason DefaultReason(absl::StatusCode code);
 // Adds a reason to an error that ended a job, if it states none: an invalid argument means invalid
 // volume bytes, and an exhausted resource a volume over a limit that only decoding has revealed.
 absl::Status WithJobReason(const absl::Status& status);
-// Adds a reason to a disk error, if it states none: a full disk is DISK_FULL. The message names
-// files.
+// Adds a reason to a disk error, if it states none: a full disk is DISK_FULL, whatever the limit.
+// The message names files.
 absl::Status WithDiskReason(const absl::Status& status);
 // The same error with `what` before its message.
 absl::Status Prefixed(const std::string& what, const absl::Status& status);

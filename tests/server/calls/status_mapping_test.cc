@@ -70,11 +70,11 @@ TEST(StatusMapping, AnErrorNamesItsField) {
   EXPECT_EQ(wire::BadRequestOf(back)->field_violations(0).field(), "page_token");
 }
 
-TEST(StatusMapping, AFullDiskNamesTheLimit) {
+TEST(StatusMapping, AFullDiskIsNoQuotaOfTheServer) {
   const absl::Status full = WithDiskReason(absl::ResourceExhaustedError("no space in /a/b"));
   const absl::Status back = Back(ToGrpcStatus(full));
   EXPECT_EQ(wire::ErrorInfoOf(back)->reason(), "DISK_FULL");
-  EXPECT_EQ(wire::QuotaFailureOf(back)->violations(0).subject(), "max_disk_bytes");
+  EXPECT_EQ(wire::QuotaFailureOf(back)->violations(0).subject(), "disk");
 }
 
 TEST(StatusMapping, AnErrorKeepsItsReason) {
