@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/pruning/limb_anchor.h"
+
 namespace bccskel {
 namespace {
 
@@ -94,23 +96,42 @@ std::optional<FlatEnd::Tip> FlatEnd::In(std::span<const LatticePoint> path, cons
 
 // The places up to the best one.
 std::vector<Coordinates> FlatEnd::MiddleFrom(Walker walker, double widest, double longest) {
+  const Coordinates way = walker.way;
   std::vector<Coordinates> places = {walker.place};
-  size_t best = 0;
-  double most = -std::numeric_limits<double>::infinity(), gone = 0;
-  while (gone < longest && Step(walker)) {
-    gone += walk_step_;
+  std::vector<double> widths = {0};  // to the nearest rim
+  for (double gone = 0; gone < longest && Step(walker); gone += walk_step_) {
     const auto [width, ahead] = MoveToMiddle(walker, widest);
     places.push_back(walker.place);
+    widths.push_back(std::min(width, ahead));
     const size_t back = std::min(places.size() - 1, kHeadingSteps);
     if (ahead > width && back >= kLeastHeading) {
       const Coordinates heading = Sum(walker.place, -1, places[places.size() - 1 - back]);
       if (Dot(heading, heading) > 0) walker.way = Unit(heading);
     }
-    const double merit = std::min(width, ahead) + kWalkSlope * gone;
-    if (merit > most) most = merit, best = places.size() - 1;
   }
-  places.resize(best + 1);
+  places.resize(BestOf(places, widths, way) + 1);
   return places;
+}
+
+// Position of the best place; the first counts only if it is alone. Behind the end of the ridge, a
+// corner of a limb that is cut at a slant lies beside the way of the limb.
+size_t FlatEnd::BestOf(std::span<const Coordinates> places, std::span<const double> widths,
+                       const Coordinates& way) const {
+  const auto best_by = [&](double slope, auto aside) {
+    size_t best = 0;
+    double most = -std::numeric_limits<double>::infinity();
+    for (size_t n = 1; n < places.size(); ++n) {
+      const double gone = walk_step_ * static_cast<double>(n);
+      const double merit = widths[n] + slope * gone - aside(places[n]);
+      if (merit > most) most = merit, best = n;
+    }
+    return best;
+  };
+  const size_t ridge_end = best_by(kRidgeSlope, [](const Coordinates&) { return 0.0; });
+  const WayOn on = StraightOn(way, widths[ridge_end]);
+  return best_by(kWalkSlope, [&](const Coordinates& place) {
+    return on.Aside(Sum(place, -1, places[ridge_end]));
+  });
 }
 
 // Returns whether there is a next place.

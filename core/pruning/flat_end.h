@@ -19,7 +19,8 @@ namespace bccskel {
 // the rim, so thinning leads the curve into one of the limb's corners. W, the distance to the rim
 // within the sheet, plays the role of the radius there. README.md of this folder gives the reasons.
 // Does:  walks along the middle of the sheet from one W before the last place that is as wide as
-//        any. The end is the place with the largest sum of W and 0.85 of the distance walked. Where
+//        any. The end is the place with the largest sum of W and 0.85 of the distance walked, minus
+//        the distance beside the way straight on (limb_anchor.h). Where
 //        the limb cannot grow along this walk, its end is the place of its path with the largest W
 //        plus 0.75 of the distance along the limb minus 0.4 of the distance aside. The removed part
 //        lies within 1.75 W + 6 units of the end, and the limb before it is at least 0.3 W long.
@@ -62,6 +63,8 @@ class FlatEnd {
     double ahead = 0;  // distance to the rim
   };
   std::vector<Coordinates> MiddleFrom(Walker walker, double widest, double longest);
+  size_t BestOf(std::span<const Coordinates> places, std::span<const double> widths,
+                const Coordinates& way) const;
   bool Step(Walker& walker);
   Sides MoveToMiddle(Walker& walker, double widest);
 

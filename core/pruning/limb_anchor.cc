@@ -132,25 +132,24 @@ std::optional<Coordinates> DirectionOnArc(const ThinSet& set, std::span<const La
   return Unit(Sum(slope, 2 * (at.back() + ahead / half) - skew, bend));
 }
 
-double WayOn::Aside(const ThinSet& set, LatticePoint p) const {
-  const Coordinates to = set.Way(from, p);
+double WayOn::Aside(const Coordinates& to) const {
   const double along = Dot(way, to);
   if (along <= 0) return 0;
   return std::max(std::sqrt(std::max(Dot(to, to) - along * along, 0.0)) - free, 0.0);
 }
 
+WayOn StraightOn(const Coordinates& way, double radius) {
+  return {Unit(way), kFreeRadii * radius + kFreeMargin};
+}
+
 WayOn WayOnFrom(const ThinSet& set, double step, LatticePoint anchor,
                 std::span<const LatticePoint> path) {
-  WayOn on = {path.back()};
-  const double radius = set.RadiusOf(on.from),
-               back = std::max(kWayRadii * radius, kLeastAim * step);
+  const LatticePoint end = path.back();
+  const double radius = set.RadiusOf(end), back = std::max(kWayRadii * radius, kLeastAim * step);
   size_t n = path.size() - 1;
-  while (n > 0 && set.Between(path[n], on.from) < back) --n;
+  while (n > 0 && set.Between(path[n], end) < back) --n;
   const LatticePoint before = n > 0 ? path[n] : anchor;
-  if (before == on.from) return on;
-  on.way = Unit(set.Way(before, on.from));
-  on.free = kFreeRadii * radius + kFreeMargin;
-  return on;
+  return before == end ? WayOn() : StraightOn(set.Way(before, end), radius);
 }
 
 }  // namespace bccskel

@@ -136,12 +136,14 @@ class TipPlacer {
 
   double Along(LatticePoint p) const { return Dot(direction_, set_.Way(origin_, p)); }
 
+  double Aside(LatticePoint p) const { return way_on_.Aside(set_.Way(ridge_end_, p)); }
+
   double Merit(LatticePoint p, double slope = kSlope) {
-    return slope * Along(p) - way_on_.Aside(set_, p) + depth_.At(p);
+    return slope * Along(p) - Aside(p) + depth_.At(p);
   }
   // An upper bound of Merit(), also in floating point, where sums and products are monotonic.
   double MeritAtMost(LatticePoint p, double slope = kSlope) const {
-    return slope * Along(p) - way_on_.Aside(set_, p) + depth_.AtMost(p);
+    return slope * Along(p) - Aside(p) + depth_.AtMost(p);
   }
 
   // Position in the path of the point with the largest merit, on ties the farthest.
@@ -235,6 +237,7 @@ class TipPlacer {
   void GrowAnew(size_t first) {
     if (!IsFirm(path_.back())) return;
     CutAfter(BestFrom(first, kRidgeSlope));
+    ridge_end_ = path_.back();
     way_on_ = WayOnFrom(set_, step_, anchor_, path_);
     FollowBend();
     Extend();
@@ -362,7 +365,8 @@ class TipPlacer {
   LatticePoint anchor_;
   LatticePoint origin_;             // of the way along the limb
   Coordinates direction_ = {};      // of the limb's end, of length 1
-  WayOn way_on_;                    // from the end of the ridge
+  LatticePoint ridge_end_;          // the last point that is certainly on the ridge
+  WayOn way_on_;                    // from there
   std::vector<LatticePoint> path_;  // from the anchor, which is not part of it, to the tip
   std::vector<Step> steps_;         // from the tip, the most promising first
 };

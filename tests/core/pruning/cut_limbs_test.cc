@@ -85,6 +85,22 @@ TEST(CutLimbs, AtASlantEndOnTheirAxes) {
   }
 }
 
+// Within a flat limb, too. Its radius is the same in the corner.
+TEST(CutLimbs, ThatAreFlatAndCutAtASlantEndInTheirMiddle) {
+  constexpr double kThick = 6, kWide = 20, kHalfLength = 90;
+  const double tangent = std::tan(20 * std::numbers::pi / 180);
+  const auto bar = [&](const WorldPoint& p) {
+    return std::abs(p[2]) <= kThick && std::abs(p[1]) <= kWide &&
+           std::abs(p[0] - tangent * p[1]) <= kHalfLength;
+  };
+  const auto result = Skeletonize(Sampled(bar, 100, 0), {}, {});
+  ASSERT_TRUE(result.ok()) << result.status();
+  ASSERT_EQ(result->graph.nodes.size(), 2u);
+  for (const SkeletonNode& node : result->graph.nodes) {
+    EXPECT_LT(std::abs(node.at.point.y - 100), 0.4 * kWide);
+  }
+}
+
 // Thinning leads the path to the rim of the wide face, which is no limb with a root, and stops far
 // from the point.
 TEST(CutLimbs, ThatWidenEndInTheLargestBall) {
