@@ -29,6 +29,7 @@ constexpr double kStride = 8;          // places in a width
 constexpr size_t kNormalReach = 4;     // points on either side
 constexpr double kWalkWidths = 1;      // so long before its end the limb is walked along
 constexpr double kWalkSlope = 0.85;    // no corners, so more: leaves taper by up to this
+constexpr double kCornerWidths = 2.4;  // a corner is no farther from the end of the ridge
 constexpr double kWalkStep = 2;        // lattice units, times CoarsenessOf()
 constexpr size_t kHeadingSteps = 12;   // the direction is that of the last steps,
 constexpr size_t kLeastHeading = 6;    // if there are at least this many
@@ -79,7 +80,9 @@ std::optional<FlatEnd::Tip> FlatEnd::In(std::span<const LatticePoint> path, cons
     }
     return n;
   };
-  const Coordinates start = PlaceOf(path[before_aim(kAimWidths * widest, 0)], scale_);
+  const size_t before = before_aim(kAimWidths * widest, 0);
+  const bool straight = set.Between(path[before], path[aim]) >= kAimWidths * widest;
+  const Coordinates start = PlaceOf(path[before], scale_);
   const Coordinates way = Unit(Sum(PlaceOf(path[aim], scale_), -1, start));
   Tip tip{.from = before_aim(kWalkWidths * widest, kLeastKept * widest), .middle = {}};
   double most = -std::numeric_limits<double>::infinity();
@@ -89,14 +92,15 @@ std::optional<FlatEnd::Tip> FlatEnd::In(std::span<const LatticePoint> path, cons
     if (merit > most) tip.last = p.position, most = merit;
   }
   const Walker walker = {PlaceOf(path[tip.from], scale_), NormalAt(path, tip.from, set), way};
-  tip.middle =
-      MiddleFrom(walker, widest, set.Between(path[tip.from], path.back()) + widest + kMargin);
+  const double longest = set.Between(path[tip.from], path.back()) + widest + kMargin;
+  tip.middle = MiddleFrom(walker, widest, longest, straight);
   return tip;
 }
 
 // The places up to the best one.
-std::vector<Coordinates> FlatEnd::MiddleFrom(Walker walker, double widest, double longest) {
-  const Coordinates way = walker.way;
+std::vector<Coordinates> FlatEnd::MiddleFrom(Walker walker, double widest, double longest,
+                                             bool straight) {
+  const auto way = straight ? std::optional(walker.way) : std::nullopt;
   std::vector<Coordinates> places = {walker.place};
   std::vector<double> widths = {0};  // to the nearest rim
   for (double gone = 0; gone < longest && Step(walker); gone += walk_step_) {
@@ -116,7 +120,7 @@ std::vector<Coordinates> FlatEnd::MiddleFrom(Walker walker, double widest, doubl
 // Position of the best place; the first counts only if it is alone. Behind the end of the ridge, a
 // corner of a limb that is cut at a slant lies beside the way of the limb.
 size_t FlatEnd::BestOf(std::span<const Coordinates> places, std::span<const double> widths,
-                       const Coordinates& way) const {
+                       const std::optional<Coordinates>& way) const {
   const auto best_by = [&](double slope, auto aside) {
     size_t best = 0;
     double most = -std::numeric_limits<double>::infinity();
@@ -128,7 +132,11 @@ size_t FlatEnd::BestOf(std::span<const Coordinates> places, std::span<const doub
     return best;
   };
   const size_t ridge_end = best_by(kRidgeSlope, [](const Coordinates&) { return 0.0; });
-  const WayOn on = StraightOn(way, widths[ridge_end]);
+  WayOn on;
+  const double rest = walk_step_ * static_cast<double>(places.size() - 1 - ridge_end);
+  if (way.has_value() && rest <= kCornerWidths * widths[ridge_end] + kMargin) {
+    on = StraightOn(*way, widths[ridge_end]);
+  }
   return best_by(kWalkSlope, [&](const Coordinates& place) {
     return on.Aside(Sum(place, -1, places[ridge_end]));
   });

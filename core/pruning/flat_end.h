@@ -62,9 +62,10 @@ class FlatEnd {
     double width = 0;  // W
     double ahead = 0;  // distance to the rim
   };
-  std::vector<Coordinates> MiddleFrom(Walker walker, double widest, double longest);
+  // `straight`: the limb is long enough to show its way.
+  std::vector<Coordinates> MiddleFrom(Walker walker, double widest, double longest, bool straight);
   size_t BestOf(std::span<const Coordinates> places, std::span<const double> widths,
-                const Coordinates& way) const;
+                const std::optional<Coordinates>& way) const;
   bool Step(Walker& walker);
   Sides MoveToMiddle(Walker& walker, double widest);
 

@@ -34,7 +34,8 @@ constexpr double kCosineWeight = 0.5;  // against the rise of the distance
 constexpr double kGrowthRadii = 2;   // of the limb's root: how far tips grow, as to a cone's point,
 constexpr double kGrowthMargin = 6;  // and lattice units
 constexpr double kLongStep = 2;  // on lattices with longer steps by one radius: caps are too coarse
-constexpr double kOffArc = 0.25;  // of its points from the arc of a bent limb, of its height
+constexpr double kCornerRadii = 2.4;  // a corner is no farther from the end of the ridge
+constexpr double kOffArc = 0.25;      // of its points from the arc of a bent limb, of its height
 constexpr double kOffArcAtRoot = kOffArc / 2;  // where the arc begins with the limb
 constexpr double kPatience = 4;                // how far below the best a growing tip may fall
 constexpr int kMajority = 7;                   // of 14 neighbors, with the point itself
@@ -238,13 +239,15 @@ class TipPlacer {
     if (!IsFirm(path_.back())) return;
     CutAfter(BestFrom(first, kRidgeSlope));
     ridge_end_ = path_.back();
-    way_on_ = WayOnFrom(set_, step_, anchor_, path_);
-    FollowBend();
+    WayOn on = WayOnFrom(set_, step_, anchor_, path_);
+    if (FollowBend()) on.way = direction_;
     Extend();
+    const double corner = kCornerRadii * set_.RadiusOf(ridge_end_) + kCutMargin;
+    if (set_.Between(ridge_end_, path_.back()) <= corner) way_on_ = on;
   }
 
   // A bent limb has turned away from the direction in which it left its anchor.
-  void FollowBend() {
+  bool FollowBend() {
     std::vector<LatticePoint> limb = {anchor_};
     limb.insert(limb.end(), path_.begin(), path_.end());
     const auto root = std::ranges::find(limb, root_);
@@ -252,9 +255,10 @@ class TipPlacer {
     if (root != limb.end()) limb.erase(limb.begin(), root);
     const std::optional<Coordinates> bent =
         DirectionOnArc(set_, limb, set_.RadiusOf(limb.back()), most_off);
-    if (!bent.has_value()) return;
+    if (!bent.has_value()) return false;
     origin_ = limb.back();
-    direction_ = way_on_.way = *bent;
+    direction_ = *bent;
+    return true;
   }
 
   void Extend() {
