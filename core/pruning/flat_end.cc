@@ -29,7 +29,6 @@ constexpr double kStride = 8;          // places in a width
 constexpr size_t kNormalReach = 4;     // points on either side
 constexpr double kWalkWidths = 1;      // so long before its end the limb is walked along
 constexpr double kWalkSlope = 0.85;    // no corners, so more: leaves taper by up to this
-constexpr double kCornerWidths = 2.4;  // a corner is no farther from the end of the ridge
 constexpr double kWalkStep = 2;        // lattice units, times CoarsenessOf()
 constexpr size_t kHeadingSteps = 12;   // the direction is that of the last steps,
 constexpr size_t kLeastHeading = 6;    // if there are at least this many
@@ -134,7 +133,7 @@ size_t FlatEnd::BestOf(std::span<const Coordinates> places, std::span<const doub
   const size_t ridge_end = best_by(kRidgeSlope, [](const Coordinates&) { return 0.0; });
   WayOn on;
   const double rest = walk_step_ * static_cast<double>(places.size() - 1 - ridge_end);
-  if (way.has_value() && rest <= kCornerWidths * widths[ridge_end] + kMargin) {
+  if (way.has_value() && rest <= kCornerRadii * widths[ridge_end] + kMargin) {
     on = StraightOn(*way, widths[ridge_end]);
   }
   return best_by(kWalkSlope, [&](const Coordinates& place) {

@@ -34,8 +34,7 @@ constexpr double kCosineWeight = 0.5;  // against the rise of the distance
 constexpr double kGrowthRadii = 2;   // of the limb's root: how far tips grow, as to a cone's point,
 constexpr double kGrowthMargin = 6;  // and lattice units
 constexpr double kLongStep = 2;  // on lattices with longer steps by one radius: caps are too coarse
-constexpr double kCornerRadii = 2.4;  // a corner is no farther from the end of the ridge
-constexpr double kOffArc = 0.25;      // of its points from the arc of a bent limb, of its height
+constexpr double kOffArc = 0.25;  // of its points from the arc of a bent limb, of its height
 constexpr double kOffArcAtRoot = kOffArc / 2;  // where the arc begins with the limb
 constexpr double kPatience = 4;                // how far below the best a growing tip may fall
 constexpr int kMajority = 7;                   // of 14 neighbors, with the point itself
@@ -246,7 +245,8 @@ class TipPlacer {
     if (set_.Between(ridge_end_, path_.back()) <= corner) way_on_ = on;
   }
 
-  // A bent limb has turned away from the direction in which it left its anchor.
+  // A bent limb has turned away from the direction in which it left its anchor. Returns whether it
+  // is bent.
   bool FollowBend() {
     std::vector<LatticePoint> limb = {anchor_};
     limb.insert(limb.end(), path_.begin(), path_.end());
