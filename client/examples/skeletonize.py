@@ -93,7 +93,7 @@ class Skeleton:
 
 def smoothed(path):
     """Each point's mean with up to four neighbors on either side, the farthest at half weight: steps
-    of a lattice make a straight line longer than it is. Ends stay."""
+    of a lattice make a straight line longer than it is. Ends stay, here also those of closed curves."""
     middles = (path[:-1] + path[1:]) / 2
     reach = np.minimum(np.minimum(np.arange(len(path)), np.arange(len(path))[::-1]), 4)
     return np.array([middles[n - r:n + r].mean(axis=0) if r else path[n]

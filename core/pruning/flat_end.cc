@@ -116,7 +116,7 @@ std::vector<Coordinates> FlatEnd::MiddleFrom(Walker walker, double widest, doubl
   return places;
 }
 
-// Position of the best place; the first counts only if it is alone. Behind the end of the ridge, a
+// Position of the best place; the first counts only if it is alone. Beyond the end of the ridge, a
 // corner of a limb that is cut at a slant lies beside the way of the limb.
 size_t FlatEnd::BestOf(std::span<const Coordinates> places, std::span<const double> widths,
                        const std::optional<Coordinates>& way) const {

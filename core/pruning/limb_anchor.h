@@ -45,15 +45,17 @@ inline constexpr double kCornerRadii = 2.4;
 // The way straight on from the end of a limb's ridge. All lengths are in lattice units.
 struct WayOn {
   Coordinates way = {};                                   // of length 1
-  double free = std::numeric_limits<double>::infinity();  // so far beside it a tip is as good
+  double free = std::numeric_limits<double>::infinity();  // beside it, without penalty
 
   // How far a place, if ahead, lies beside the way, beyond what is free. The corner of a limb cut
   // at a slant lies as far beside it as the limb is thick. `to`: from the end of the ridge.
   double Aside(const Coordinates& to) const;
 };
-// Free are a quarter of the radius at the end of the ridge, and a unit. `way`: of any length but 0.
+// The free distance is a quarter of the radius at the end of the ridge plus a unit. `way`: of any
+// length but 0.
 WayOn StraightOn(const Coordinates& way, double radius);
-// As the last two radii of the path lead.
+// As the last two radii of the path lead, at least four steps; the way from the anchor if the path
+// is shorter.
 // Shapes: `path` comes from `anchor`, which is not part of it, and ends where the ridge ends;
 //         `step` as above.
 WayOn WayOnFrom(const ThinSet& set, double step, LatticePoint anchor,

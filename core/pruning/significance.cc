@@ -198,7 +198,7 @@ double Significance::ValueOf(const ThinSet& set, const BranchPath& path, const R
   if (rough < kLeastFine || parts.front().bound <= least) return rough;
   for (size_t place = kPlaces; place-- > 0;) {
     sections_.Refine(reach, sections[place]);
-    if (place > kPlaces / 2) continue;  // the medians are still those of sections not refined
+    if (place > kPlaces / 2) continue;  // most medians hardly change before
     parts = PartsOf(set, path, run, sections);
     if (parts.front().bound <= std::max(least, kLeastFine)) {
       return RoughValueOf(parts, sections, width_near_tip);

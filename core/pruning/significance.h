@@ -97,7 +97,7 @@ class Significance {
   Run RunOf(const ThinSet& set, BranchPath& path);
   void LookPastPits(BranchPath& path);
   // The value of a run without the factor `uncovered`; not exact if it is at most `least`, and
-  // rough if it is so small that the branch goes.
+  // rough if it is at most 0.35, less than the default threshold.
   double ValueOf(const ThinSet& set, const BranchPath& path, const Run& run,
                  double least = -std::numeric_limits<double>::infinity());
   double RoughValueOf(const std::vector<Part>& parts, const Sections& sections,

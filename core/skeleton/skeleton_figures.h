@@ -52,10 +52,11 @@ ComponentFigures TotalOf(const GraphComponents& components);
 uint64_t CountNarrowLoops(const SkeletonGraph& graph, double width);
 
 // The smooth curve through the points of an edge, one position for each, in world units: the mean
-// of the point and up to four on either side, each moved to the middle by its shift. A path on a
-// lattice is a staircase, up to 24 % too long; this curve is not. No position is farther from its
-// point than half the radius there, so the curve stays inside the object. The first and last point
-// do not move; a closed curve without junction is smooth all around.
+// of the point and up to four on either side, the farthest two at half weight, each moved to the
+// middle by its shift. A path on a lattice is a staircase, up to 24 % too long; this curve is not.
+// No position is farther from its point than half the radius there, so the curve stays inside the
+// object. The first and last point do not move; a closed curve without junction is smooth all
+// around.
 std::vector<WorldPoint> SmoothCurve(const SkeletonGraph& graph, const SkeletonEdge& edge);
 
 }  // namespace bccskel

@@ -95,7 +95,7 @@ Reason DefaultReason(absl::StatusCode code);
 // Adds a reason to an error that ended a job, if it states none: an invalid argument means invalid
 // volume bytes, and an exhausted resource a volume over a limit that only decoding has revealed.
 absl::Status WithJobReason(const absl::Status& status);
-// Adds a reason to a disk error, if it states none: a full disk is DISK_FULL, whatever the limit.
+// Adds a reason to a disk error, if it states none: a full disk is DISK_FULL with the quota `disk`.
 // The message names files.
 absl::Status WithDiskReason(const absl::Status& status);
 // The same error with `what` before its message.

@@ -14,7 +14,7 @@ import tables
 
 # Edge of a voxel in lattice units: a lattice point stands for four cubic units.
 VOXEL = 4 ** (1 / 3)
-# Points on either side that the smoothed curve is the mean of.
+# Points on either side that the smoothed curve is the mean of, all at the same weight.
 REACH = 4
 
 
