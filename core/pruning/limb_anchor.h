@@ -38,8 +38,8 @@ LatticePoint TakeAnchor(const ThinSet& set, double step, FreeBranch& branch);
 std::optional<Coordinates> DirectionOnArc(const ThinSet& set, std::span<const LatticePoint> points,
                                           double ahead, double most_off);
 
-// How far the corner of a limb cut at a slant of up to 40 degrees lies from the end of its ridge,
-// in radii there.
+// The corner of a limb cut at a slant of up to 40 degrees lies no farther from the end of its ridge
+// than so many radii there plus kCutMargin.
 inline constexpr double kCornerRadii = 2.4;
 
 // The way straight on from the end of a limb's ridge. All lengths are in lattice units.
