@@ -51,11 +51,12 @@ class Skeleton:
 
     def curve(self, edge):
         """The smooth curve in the middle of the object, a world position per point of the edge.
-        No position is farther from its point than half the radius, so all lie inside."""
-        points = self.world(self.paths[edge])
-        way = smoothed(self.world(self.paths[edge] + self.shifts[edge])) - points
-        far = np.maximum(np.linalg.norm(way, axis=1), 1e-300)
-        return points + way * np.minimum(1, self.radii[edge] / 2 / far)[:, np.newaxis]
+        Each is within half the radius of its point or within the point's cell, so all lie inside."""
+        way = smoothed(self.paths[edge] + self.shifts[edge]) - self.paths[edge]
+        far = np.linalg.norm(self.world(way) - self.world([0, 0, 0]), axis=1) * 2 / self.radii[edge]
+        cells = np.maximum(abs(way).max(axis=1), abs(way).sum(axis=1) / 1.5)
+        way = way / np.maximum(1, np.minimum(far, cells))[:, np.newaxis]
+        return self.world(self.paths[edge] + way)
 
     def to_networkx(self):
         """A MultiGraph: nodes with `position`, edges with `path` (the smooth curve), `radii` and

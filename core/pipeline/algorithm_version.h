@@ -10,7 +10,7 @@ namespace bccskel {
 inline constexpr char kAlgorithmVersion[] = "24";
 
 // The same for masks; it also changes with their conversion.
-inline constexpr char kMaskAlgorithmVersion[] = "24.mask-7";
+inline constexpr char kMaskAlgorithmVersion[] = "24.mask-8";
 
 constexpr const char* AlgorithmVersionOf(ObjectSource source) {
   return source == ObjectSource::kPoints ? kAlgorithmVersion : kMaskAlgorithmVersion;

@@ -17,15 +17,26 @@ double LengthOfCurve(std::span<const WorldPoint> curve) {
   return length;
 }
 
-// The place, or the one on the way to it that is as far from `from` as may be.
-WorldPoint Within(double reach, const WorldPoint& from, const WorldPoint& place) {
-  const double way = DistanceBetween(from, place);
-  if (way <= reach) return place;
-  WorldPoint nearer;
+Coordinates LatticePlaceOf(const SkeletonPoint& p) {
+  return {static_cast<double>(p.point.x), static_cast<double>(p.point.y),
+          static_cast<double>(p.point.z)};
+}
+
+// How much of a way from p, in lattice units, stays within half the radius of p or within its cell.
+// The cells are the truncated octahedra around the points of the lattice, which fill space, so
+// those of the object's points are the object. Thin limbs need them: some of their points lie on
+// the surface, where radii say nothing of how far the middle may be.
+double ShareInside(const SkeletonGraph& graph, const SkeletonPoint& p, const Coordinates& way) {
+  double square = 0, farthest = 0, sum = 0;
   for (size_t axis = 0; axis < 3; ++axis) {
-    nearer[axis] = from[axis] + (place[axis] - from[axis]) * (reach / way);
+    const double units = std::abs(way[axis]), along = units * graph.placement.spacing[axis] / 2;
+    square += along * along;
+    farthest = std::max(farthest, units);
+    sum += units;
   }
-  return nearer;
+  const double to_ball = graph.RadiusOf(p) / 2 / std::sqrt(square);
+  const double to_cell = std::min(1 / farthest, 1.5 / sum);
+  return std::max(to_ball, to_cell);
 }
 
 void AddNode(const SkeletonGraph& graph, const SkeletonNode& node, ComponentFigures& figures) {
@@ -40,14 +51,21 @@ void AddNode(const SkeletonGraph& graph, const SkeletonNode& node, ComponentFigu
 }  // namespace
 
 std::vector<WorldPoint> SmoothCurve(const SkeletonGraph& graph, const SkeletonEdge& edge) {
-  std::vector<WorldPoint> middles;
-  for (const SkeletonPoint& p : graph.PointsOf(edge)) {
-    middles.push_back(graph.ShiftedPositionOf(p));
+  const std::span<const SkeletonPoint> points = graph.PointsOf(edge);
+  std::vector<Coordinates> middles;
+  for (const SkeletonPoint& p : points) {
+    Coordinates& middle = middles.emplace_back(LatticePlaceOf(p));
+    for (size_t axis = 0; axis < 3; ++axis) {
+      middle[axis] += p.shift[axis] / static_cast<double>(kShiftUnits);
+    }
   }
-  std::vector<WorldPoint> curve = MeansAlong(middles, ShapeOf(graph, edge));
-  for (size_t n = 0; n < curve.size(); ++n) {
-    const SkeletonPoint& p = graph.PointsOf(edge)[n];
-    curve[n] = Within(graph.RadiusOf(p) / 2, graph.PositionOf(p), curve[n]);
+  const std::vector<Coordinates> means = MeansAlong(middles, ShapeOf(graph, edge));
+  std::vector<WorldPoint> curve;
+  for (size_t n = 0; n < points.size(); ++n) {
+    const Coordinates from = LatticePlaceOf(points[n]), way = Sum(means[n], -1, from);
+    const double share = ShareInside(graph, points[n], way);
+    const Coordinates at = share < 1 ? Sum(from, share, way) : means[n];
+    curve.push_back(graph.placement.ToWorld(at[0], at[1], at[2]));
   }
   return curve;
 }

@@ -54,9 +54,10 @@ uint64_t CountNarrowLoops(const SkeletonGraph& graph, double width);
 // The smooth curve through the points of an edge, one position for each, in world units: the mean
 // of the point and up to four on either side, the farthest two at half weight, each moved to the
 // middle by its shift. A path on a lattice is a staircase, up to 24 % too long; this curve is not.
-// No position is farther from its point than half the radius there, so the curve stays inside the
-// object. The first and last point do not move; a closed curve without junction is smooth all
-// around.
+// Each position is within half the radius of its point, or within the point's cell, the truncated
+// octahedron |x|, |y|, |z| <= 1 and |x| + |y| + |z| <= 1.5 around it in lattice units, so the curve
+// stays inside the object. The first and last point do not move; a closed curve without junction is
+// smooth all around.
 std::vector<WorldPoint> SmoothCurve(const SkeletonGraph& graph, const SkeletonEdge& edge);
 
 }  // namespace bccskel

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "core/distance/exact_radius.h"
@@ -34,15 +35,28 @@ class VoxelRadii {
       : voxel_(voxel_units),
         per_unit_(1.0 / voxel_units),
         scale_(AxisScaleOf(object.placement())),
+        window_(object.window()),
         search_(search),
         bricks_(object) {}
 
   // `radius` is the distance of p to the nearest background point.
   float At(LatticePoint p, float radius) {
     if (radius == 0) return 0;
-    const Vector way = WayTo(p, search_.FirstNearestAt(p, radius));
-    const double near = NearSide(p, way);
-    const double far = FarSide(p, way, near);
+    Vector way = WayTo(p, search_.FirstNearestAt(p, radius));
+    Vector from = {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
+    double near;
+    if (const std::optional<size_t> axis = FlatAcross(p, way)) {
+      near = FaceAlong(p, way, *axis);
+      // Through the middle of the voxels there: p may lie where four of them meet.
+      for (size_t a = 0; a < 3; ++a) {
+        if (a == *axis) continue;
+        from[a] += way[a];
+        way[a] = 0;
+      }
+    } else {
+      near = NearRoundSide(way);
+    }
+    const double far = FarSide(from, way, near);
     // Where voxels meet in an edge or a corner there is no thickness; no mask shows thinner parts.
     const double half_edge = voxel_ / 2.0;  // of the shortest
     return static_cast<float>(std::max((near + far) / 2, half_edge));
@@ -76,14 +90,19 @@ class VoxelRadii {
     return v;
   }
 
-  // The distance to the surface on the side of the nearest background point. Where it is round, the
-  // nearest of the voxels around lies a little outside on average, the more the fewer there are.
-  double NearSide(LatticePoint p, const Vector& way) {
+  // The axis across which the surface on the side of the nearest background point is a plane.
+  std::optional<size_t> FlatAcross(LatticePoint p, const Vector& way) {
     for (size_t axis = 0; axis < 3; ++axis) {
       const size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
       if (2 * std::max(std::abs(way[u]), std::abs(way[v])) > voxel_) continue;
-      if (IsFlat(p, way, axis)) return FaceAlong(p, way, axis);
+      if (IsFlat(p, way, axis)) return axis;
     }
+    return std::nullopt;
+  }
+
+  // The distance to a round surface on the side of the nearest background point: the nearest of the
+  // voxels around lies a little outside on average, the more the fewer there are.
+  double NearRoundSide(const Vector& way) const {
     const double length = LengthOf(way), voxel = VoxelAlong(way);
     return std::max(length - voxel * (kOutside + kOutsideSmall * voxel / length), 0.0);
   }
@@ -109,6 +128,7 @@ class VoxelRadii {
       for (int32_t step : {-wide, -1, 0, 1, wide}) {
         Voxel v = outside;
         v[lateral] += step;
+        if (IsBeyondImage(v)) continue;
         if (IsObject(v)) return false;
         v[axis] += inward;
         if (!IsObject(v)) return false;
@@ -117,15 +137,22 @@ class VoxelRadii {
     return true;
   }
 
+  // What lies beyond the border of an image that continues is unknown.
+  bool IsBeyondImage(const Voxel& v) const {
+    const LatticePoint middle = {voxel_ * v[0] + 1, voxel_ * v[1] + 1, voxel_ * v[2] + 1};
+    return window_.has_value() && !window_->Contains(middle);
+  }
+
   // The distance to the face where the chord leaves the object on the other side.
-  double FarSide(LatticePoint p, const Vector& way, double near) {
+  double FarSide(const Vector& from, const Vector& way, double near) {
     const double length = LengthOf(way), voxel = VoxelAlong(way), step = voxel / kStepsPerVoxel;
     const double begin = std::max(near - voxel, 0.0);
     const auto steps = static_cast<int>((near + kMostFarther * voxel - begin) / step);
     Voxel passed = {-1, -1, -1};  // no voxel
     for (int n = 0; n < steps; ++n) {
       const double along = (begin + (n + 0.5) * step) / length;
-      const Vector at = {p.x - along * way[0], p.y - along * way[1], p.z - along * way[2]};
+      const Vector at = {from[0] - along * way[0], from[1] - along * way[1],
+                         from[2] - along * way[2]};
       const Voxel voxel_here = VoxelAt(at);
       if (voxel_here == passed) continue;
       if (!IsObject(voxel_here)) return begin + n * step;
@@ -137,6 +164,7 @@ class VoxelRadii {
   const int32_t voxel_;
   const double per_unit_;  // voxels in one, exact for the powers of two that voxels have
   const AxisScale scale_;
+  const std::optional<LatticeBox> window_;
   ExactRadius search_;
   NearbyBricks bricks_;
 };

@@ -132,7 +132,7 @@ TEST(MaskRadius, IsThatOfTheSolidWithinATenthOfAVoxelInTheMean) {
 // A slab as many voxels thick as it is: hardly an error, also where voxels are no cubes.
 TEST(MaskRadius, OfASlabIsHalfItsThickness) {
   for (const auto& [thickness, edge] :
-       {std::pair(5, 2.5), {6, 2.5}, {9, 2.5}, {10, 2.5}, {3, 8.0}}) {
+       {std::pair(1, 1.0), {1, 2.5}, {2, 2.5}, {5, 2.5}, {6, 2.5}, {9, 2.5}, {10, 2.5}, {3, 8.0}}) {
     MaskGrid grid = {.nx = 128, .ny = 64, .nz = 20};
     grid.placement.spacing = {1, 1, edge};
     auto converter = *MaskConverter::Create(grid, {});

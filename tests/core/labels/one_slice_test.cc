@@ -5,40 +5,14 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
-#include <utility>
-#include <vector>
 
-#include "core/labels/convert_label.h"
-#include "core/mask/mask_converter.h"
-#include "core/pipeline/skeletonize.h"
 #include "core/skeleton/skeleton_figures.h"
+#include "tests/core/labels/voxel_figure.h"
 
 namespace bccskel {
 namespace {
 
-using Voxel = std::array<int32_t, 3>;
-
-template <typename IsIn>
-SkeletonizeResult SkeletonOf(const MaskGrid& grid, const SkeletonizeOptions& options,
-                             const MaskOptions& mask, const IsIn& is_in) {
-  auto converter = *MaskConverter::Create(grid, mask);
-  for (int32_t z = 0; z < grid.nz; ++z) {
-    std::vector<uint64_t> words(grid.WordsPerSlice());
-    for (int32_t y = 0; y < grid.ny; ++y) {
-      for (int32_t x = 0; x < grid.nx; ++x) {
-        if (!is_in(Voxel{x, y, z})) continue;
-        const size_t word =
-            static_cast<size_t>(y) * grid.WordsPerRow() + static_cast<size_t>(x) / 64;
-        words[word] |= uint64_t{1} << x % 64;
-      }
-    }
-    EXPECT_TRUE(converter.AddSlice(words, {}).ok());
-  }
-  const ConvertedMask converted = *std::move(converter).Finish();
-  auto result = Skeletonize(converted.volume, ForMask(options, grid, mask), {});
-  EXPECT_TRUE(result.ok()) << result.status();
-  return *std::move(result);
-}
+using test::SkeletonOf, test::Voxel;
 
 // With round ends around those of its middle line.
 struct Rod {
@@ -107,6 +81,18 @@ TEST(OneSlice, RodsHaveTheirLengthAndRadiusAlongAnyAxisHoweverThickTheSlice) {
     }
     ExpectLengthAndRadiusOf({5, 33}, {axis, 1, {.points = VoxelPoints::kSixteen}});
     ExpectLengthAndRadiusOf({5, 33}, {axis, 1, {.sampling = MaskSamplingOptions{}}});
+  }
+}
+
+// The surface of the object is flat across the slice, however thin that is.
+TEST(OneSlice, StraightBarsHaveExactRadii) {
+  for (const double width : {2.0, 3.0, 4.0, 6.0, 10.0, 20.0}) {
+    const SkeletonGraph graph = Picture{}.Of({width, 0}).graph;
+    for (const SkeletonPoint& p : graph.points) {
+      const double out = std::abs(graph.PositionOf(p)[0] - kEdge / 2.0);
+      if (out > kLength / 2 - width - 2) continue;
+      ASSERT_NEAR(graph.RadiusOf(p), width / 2, 0.01);
+    }
   }
 }
 

@@ -103,18 +103,34 @@ TEST(CenteredCurves, OfARingLieInItsPlane) {
   EXPECT_LE(OffPlane(result->graph, middle), OffPlane(Unshifted(result->graph), middle));
 }
 
-TEST(CenteredCurves, StayInsideTheObjectAndNearTheirPoints) {
+// Whether the place is in the cell of an object point: the nearest, or one of several as near.
+bool IsInside(const Volume& object, const std::array<double, 3>& place) {
+  std::array<int32_t, 3> low;
+  for (size_t axis = 0; axis < 3; ++axis) low[axis] = static_cast<int32_t>(place[axis]) - 1;
+  double nearest = 4, inside = 4;
+  for (int n = 0; n < 64; ++n) {
+    const LatticePoint p = {low[0] + n % 4, low[1] + n / 4 % 4, low[2] + n / 16};
+    if (!IsOnLattice(p)) continue;
+    const double square =
+        std::pow(place[0] - p.x, 2) + std::pow(place[1] - p.y, 2) + std::pow(place[2] - p.z, 2);
+    nearest = std::min(nearest, square);
+    if (object.Contains(p)) inside = std::min(inside, square);
+  }
+  return inside < nearest + 1e-9;
+}
+
+TEST(CenteredCurves, StayInsideTheObject) {
   for (Shape shape : {Shape::kTree, Shape::kHorse, Shape::kKnot}) {
     const Volume object = *GenerateShape(shape, {.points = 40'000, .noise = 0.05});
     const SkeletonGraph graph = Skeletonize(object, {}, {})->graph;
+    const Placement& placement = graph.placement;
     for (const SkeletonEdge& edge : graph.edges) {
-      const std::vector<WorldPoint> curve = SmoothCurve(graph, edge);
-      for (size_t n = 0; n < curve.size(); ++n) {
-        const SkeletonPoint& p = graph.PointsOf(edge)[n];
-        const WorldPoint at = graph.PositionOf(p);
-        const double way =
-            std::hypot(curve[n][0] - at[0], curve[n][1] - at[1], curve[n][2] - at[2]);
-        ASSERT_LE(way, graph.RadiusOf(p) / 2 * (1 + 1e-12));
+      for (const WorldPoint& at : SmoothCurve(graph, edge)) {
+        std::array<double, 3> place;
+        for (size_t axis = 0; axis < 3; ++axis) {
+          place[axis] = (at[axis] - placement.origin[axis]) * 2 / placement.spacing[axis];
+        }
+        ASSERT_TRUE(IsInside(object, place));
       }
     }
   }
