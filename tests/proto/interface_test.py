@@ -1,7 +1,7 @@
 """Holds the .proto files to what was promised and to the style of `buf lint` STANDARD.
 
-proto/interface.textproto is the interface as it was last blessed. Whatever it names must stay as it
-is: callers were built with it. After adding something:
+proto/interface.txt is the interface as it was last blessed, one fact per line. Whatever it names must
+stay as it is: callers were built with it. After adding something:
 
     python3 tests/proto/interface_test.py --bless
 """
@@ -14,10 +14,10 @@ import sys
 import tempfile
 import unittest
 
-from google.protobuf import descriptor_pb2, text_format
+from google.protobuf import descriptor_pb2
 
 PROTO = pathlib.Path(__file__).resolve().parents[2] / "proto"
-BLESSED = PROTO / "interface.textproto"
+BLESSED = PROTO / "interface.txt"
 COMMAND = "python3 tests/proto/interface_test.py --bless"
 
 PASCAL = re.compile(r"([A-Z][a-z0-9]+)+")
@@ -35,21 +35,27 @@ def compile_protos(folder, *options):
         return descriptor_pb2.FileDescriptorSet.FromString(out.read()), done.stderr
 
 
-# What can be named: a dictionary from a path such as "file.proto Message.field" to its meaning.
+# What can be named: a dictionary from a path such as "field file.proto: package.Message.field" to its
+# meaning.
 
 def field_facts(message, field):
-    oneof = message.oneof_decl[field.oneof_index].name if field.HasField("oneof_index") else ""
-    return (field.number, field.type, field.label, field.type_name, oneof)
+    kind = descriptor_pb2.FieldDescriptorProto
+    words = [str(field.number), kind.Label.Name(field.label).removeprefix("LABEL_").lower(),
+             kind.Type.Name(field.type).removeprefix("TYPE_").lower()]
+    words += [field.type_name] if field.type_name else []
+    if field.HasField("oneof_index"):
+        words.append(f"oneof {message.oneof_decl[field.oneof_index].name}")
+    return " ".join(words)
 
 
 def message_facts(prefix, message):
     name = f"{prefix}{message.name}"
-    yield f"message {name}", None
+    yield f"message {name}", ""
     for field in message.field:
         yield f"field {name}.{field.name}", field_facts(message, field)
     for reserved in message.reserved_range:
         for number in range(reserved.start, reserved.end):
-            yield f"reserved {name} {number}", None
+            yield f"reserved {name} {number}", ""
     for inner in message.nested_type:
         yield from message_facts(f"{name}.", inner)
     for enum in message.enum_type:
@@ -57,17 +63,17 @@ def message_facts(prefix, message):
 
 
 def enum_facts(prefix, enum):
-    yield f"enum {prefix}{enum.name}", None
+    yield f"enum {prefix}{enum.name}", ""
     for value in enum.value:
-        yield f"value {prefix}{enum.name}.{value.name}", value.number
+        yield f"value {prefix}{enum.name}.{value.name}", str(value.number)
 
 
 def service_facts(prefix, service):
-    yield f"service {prefix}{service.name}", None
+    yield f"service {prefix}{service.name}", ""
     for method in service.method:
-        yield (f"rpc {prefix}{service.name}.{method.name}",
-               (method.input_type, method.output_type, method.client_streaming,
-                method.server_streaming))
+        takes = "stream " * method.client_streaming + method.input_type
+        returns = "stream " * method.server_streaming + method.output_type
+        yield f"rpc {prefix}{service.name}.{method.name}", f"({takes}) returns ({returns})"
 
 
 def facts(descriptors):
@@ -86,21 +92,24 @@ def facts(descriptors):
 def breaks(blessed, now):
     """What callers relied on and is no longer so."""
     return sorted([f"removed: {name}" for name in blessed.keys() - now.keys()] +
-                  [f"changed: {name}" for name in blessed.keys() & now.keys()
+                  [f"changed: {name}: {blessed[name]} -> {now[name]}" for name in blessed.keys() & now.keys()
                    if blessed[name] != now[name]])
 
 
 def blessed_facts():
-    return facts(text_format.Parse(BLESSED.read_text(), descriptor_pb2.FileDescriptorSet()))
+    lines = BLESSED.read_text().splitlines()[1:]
+    return {name: meaning for name, _, meaning in (line.partition(" = ") for line in lines)}
 
 
 def bless():
     descriptors, _ = compile_protos(PROTO)
-    broken = breaks(blessed_facts(), facts(descriptors)) if BLESSED.exists() else []
+    now = facts(descriptors)
+    broken = breaks(blessed_facts(), now) if BLESSED.exists() else []
     if broken:
         sys.exit("not blessed, callers would break:\n  " + "\n  ".join(broken))
     BLESSED.write_text("# Made by " + COMMAND + "; see proto/README.md.\n" +
-                       text_format.MessageToString(descriptors))
+                       "".join(f"{name} = {meaning}\n" if meaning else f"{name}\n"
+                               for name, meaning in sorted(now.items())))
 
 
 class CompatibilityTest(unittest.TestCase):
