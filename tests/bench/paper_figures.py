@@ -3,7 +3,7 @@
 
 Needs a release build and the packages of docker/packages/bench.txt and demo.txt. Usage:
   tests/bench/paper_figures.py BUILD [--quick] [--output FOLDER]      (default: tests/bench/paper)
-Writes README.md, growth.svg and a picture of each model.
+Writes README.md, growth.png and a picture of each model.
 """
 
 import argparse
@@ -113,7 +113,6 @@ def measure_models(commands, meshes, output, repeat):
 def plot_growth(rows, path):
     import matplotlib
     matplotlib.use("Agg")
-    matplotlib.rcParams.update({"svg.hashsalt": "bccskel", "svg.fonttype": "none"})
     from matplotlib import pyplot
     figure, axes = pyplot.subplots(figsize=(7, 4.5))
     colors = dict(zip(GROWING, ("tab:blue", "tab:orange", "tab:green")))
@@ -132,7 +131,7 @@ def plot_growth(rows, path):
     axes.grid(True, which="major", linewidth=0.3)
     axes.legend(fontsize="x-small")
     figure.tight_layout()
-    figure.savefig(path, metadata={"Date": None})
+    figure.savefig(path, dpi=128)
 
 
 def model_row(model):
@@ -177,7 +176,7 @@ def document(programs, models, loads, seconds):
         "(Fig. 11) and a table of models with points, time and picture (Fig. 12; a Pentium 4 with",
         "3 GHz). Their models are not ours, so what compares is what their text states of objects",
         "of this size:", "", *beside_the_paper(models), "",
-        "## Time over growing resolution", "", "![time over points](growth.svg)", "",
+        "## Time over growing resolution", "", "![time over points](growth.png)", "",
         "## Models", "",
         "Core is distances, shells, thinning and clean-up; whole adds pruning, certificate and",
         "graph. Directional is the paper's method with the paper's distances; symmetric is our",
@@ -204,7 +203,7 @@ def main():
         subprocess.run([FETCH, meshes, *(f"{name}.off" for name in MESHES)], check=True,
                        stdout=subprocess.DEVNULL)
         plot_growth(measure_growth(commands, meshes, sizes, repeat),
-                    arguments.output / "growth.svg")
+                    arguments.output / "growth.png")
         models = measure_models(commands, meshes, arguments.output, repeat)
     text = document(report.Programs(arguments.build), models, (load, os.getloadavg()[0]),
                     time.monotonic() - start)

@@ -2,7 +2,7 @@
 """Measures the engine against its targets and prints the result as markdown.
 
 Needs a release build with -DBCCSKEL_BUILD_BENCHMARKS=ON and docker/packages/bench.txt. Usage:
-  tests/bench/report.py BUILD [--quick] [--large] [--output report.md] [--plot growth.svg]
+  tests/bench/report.py BUILD [--quick] [--large] [--output report.md] [--plot growth.png]
 README.md in this folder says what each figure means.
 """
 
@@ -204,7 +204,7 @@ def main():
     parser.add_argument("--quick", action="store_true", help="few repetitions, in three minutes")
     parser.add_argument("--large", action="store_true", help="64M points, too; half an hour")
     parser.add_argument("--output", help="markdown file (default: standard output)")
-    parser.add_argument("--plot", default="growth.svg", help="SVG or PNG (default: growth.svg)")
+    parser.add_argument("--plot", default="growth.png", help="PNG or SVG (default: growth.png)")
     arguments = parser.parse_args()
     text = report(arguments)
     if arguments.output:

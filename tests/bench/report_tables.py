@@ -201,7 +201,6 @@ def all_targets(rows, loaded, memory, scikit, checks, sizes):
 def plot_growth(rows, sizes, path):
     import matplotlib
     matplotlib.use("Agg")
-    matplotlib.rcParams.update({"svg.hashsalt": "bccskel", "svg.fonttype": "none"})
     from matplotlib import pyplot
     figure, axes = pyplot.subplots(figsize=(7, 4.5))
     for name in OBJECTS:
@@ -217,4 +216,4 @@ def plot_growth(rows, sizes, path):
     axes.grid(True, which="major", linewidth=0.3)
     axes.legend(fontsize="small")
     figure.tight_layout()
-    figure.savefig(path, metadata={"Date": None} if str(path).endswith(".svg") else None)
+    figure.savefig(path, dpi=128)

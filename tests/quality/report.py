@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Measures how good skeletons are and prints a report as markdown.
 
-Usage: report.py BUILD_FOLDER [--output report.md] [--plot offsets.svg] [--points N] [--turns N]
+Usage: report.py BUILD_FOLDER [--output report.md] [--plot offsets.png] [--points N] [--turns N]
                  [--data FOLDER] [--without-peer]
 """
 

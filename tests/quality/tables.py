@@ -242,7 +242,6 @@ def report(figures, others, rotations, reconstruction, meshes, wild_tables=()):
 def plot(figures, others, path):
     import matplotlib
     matplotlib.use("Agg")
-    matplotlib.rcParams.update({"svg.hashsalt": "bccskel", "svg.fonttype": "none"})
     from matplotlib import pyplot
     drawing, axes = pyplot.subplots(figsize=(8, 4.5))
     for method in methods_of(figures):
@@ -262,4 +261,4 @@ def plot(figures, others, path):
     axes.grid(True, linewidth=0.3)
     axes.legend(fontsize="small")
     drawing.tight_layout()
-    drawing.savefig(path, metadata={"Date": None} if str(path).endswith(".svg") else None)
+    drawing.savefig(path, dpi=128)
