@@ -185,6 +185,32 @@ class MetricsTest(unittest.TestCase):
         self.assertEqual(lines.get(name), "2",
                          {name: value for name, value in lines.items() if "jobs_total" in name})
 
+    def test_jobs_that_callers_and_deadlines_end_count_as_such(self):
+        with ServerProcess("--metrics-listen", "127.0.0.1:0") as server:
+            page = server.line_after("metrics at ")
+            with grpc.insecure_channel(server.address) as channel:
+                stub = example.service_grpc.SkeletonizationServiceStub(channel)
+                for timeout, code in ((server_process.TIMEOUT_S, grpc.StatusCode.CANCELLED),
+                                      (0.5, grpc.StatusCode.DEADLINE_EXCEEDED)):
+                    over = threading.Event()
+
+                    def send(over=over):
+                        yield next(iter(example.requests(example.torus())))
+                        over.wait(server_process.TIMEOUT_S)
+
+                    replies = stub.Skeletonize(send(), timeout=timeout)
+                    self.assertTrue(next(replies).HasField("accepted"))
+                    if code == grpc.StatusCode.CANCELLED:
+                        replies.cancel()
+                    self.assertEqual(replies.code(), code)
+                    over.set()
+                lines = server_process.metrics_after(page, 2)
+        jobs = {name: value for name, value in lines.items() if name.startswith("bccskel_jobs_total")}
+        # The end of a call whose deadline has passed may come to the server as its cancelling.
+        ended = sum(float(value) for name, value in jobs.items()
+                    if 'code="CANCELLED"' in name or 'code="DEADLINE_EXCEEDED"' in name)
+        self.assertEqual(ended, 2, jobs)
+
     def test_methods_that_callers_make_up_share_one_series(self):
         with ServerProcess("--metrics-listen", "127.0.0.1:0") as server:
             page = server.line_after("metrics at ")
