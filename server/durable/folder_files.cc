@@ -51,8 +51,8 @@ absl::StatusOr<std::set<std::string>> FolderFiles::Known(JobStore& store) const 
   return known;
 }
 
-// Files of another job store must not be swept. Folders of older servers do not name their store;
-// for them one known file is enough.
+// Files of another job store must not be swept. A folder whose lock was deleted does not name its
+// store; for it one known file is enough.
 absl::Status FolderFiles::TakeOver(JobStore& store) {
   BCCSKEL_ASSIGN_OR_RETURN(const std::set<std::string> known, Known(store));
   BCCSKEL_ASSIGN_OR_RETURN(const std::set<std::string> files, blobs_.Files());

@@ -31,54 +31,25 @@ constexpr Meaning kMeanings[] = {
 
 const Meaning& MeaningOf(Reason reason) { return kMeanings[static_cast<size_t>(reason)]; }
 
-// Both occur in stored jobs. The first holds lines of reason, key, value, field and quota, of which
-// older servers omitted the last ones; the second is a number that older servers wrote for a few
-// reasons.
+// Occurs in stored jobs: lines of reason, key, value, field and quota.
 constexpr char kPayloadUrl[] = "bccskel.server/fault";
-constexpr char kRefusalUrl[] = "bccskel.server/refusal";
 constexpr char kWireUrl[] = "type.googleapis.com/google.rpc.ErrorInfo";
 constexpr char kCommittedSize[] = "committed_size";
-
-struct OldRefusal {
-  Reason reason;
-  const char* quota;
-};
-constexpr OldRefusal kOldRefusals[] = {{Reason::kVolumeTooLarge, "max_volume_bytes"},
-                                       {Reason::kVolumeTooLarge, "max_bricks"},
-                                       {Reason::kShellPointsTooLarge, ""},
-                                       {Reason::kVolumeTooLarge, "max_admitted_bytes"},
-                                       {Reason::kQueueFull, ""},
-                                       {Reason::kMemoryBusy, ""},
-                                       {Reason::kDraining, ""},
-                                       {Reason::kDecoderBusy, ""}};
 
 struct Stated {
   Reason reason = Reason::kServerDefect;
   ErrorDetails details;
 };
 
-std::optional<Stated> StatedRefusal(const absl::Status& status) {
-  const auto payload = status.GetPayload(kRefusalUrl);
-  if (!payload.has_value() || payload->empty()) return std::nullopt;
-  const auto number = static_cast<unsigned char>((*payload)[0]);
-  if (number >= std::size(kOldRefusals)) return std::nullopt;
-  return Stated{kOldRefusals[number].reason, {.quota = kOldRefusals[number].quota}};
-}
-
 std::optional<Stated> StatedBy(const absl::Status& status) {
   const auto payload = status.GetPayload(kPayloadUrl);
-  if (!payload.has_value()) return StatedRefusal(status);
-  std::vector<std::string> parts = absl::StrSplit(std::string(*payload), '\n');
-  if (parts.size() < 3) return std::nullopt;
-  parts.resize(5);
+  if (!payload.has_value()) return std::nullopt;
+  const std::vector<std::string> parts = absl::StrSplit(std::string(*payload), '\n');
+  if (parts.size() < 5) return std::nullopt;
   for (const Meaning& meaning : kMeanings) {
     if (parts[0] != meaning.name) continue;
-    const bool old = meaning.reason == Reason::kDiskFull && parts[4].empty();
     return Stated{meaning.reason,
-                  {.field = parts[3],
-                   .quota = old ? parts[2] : parts[4],
-                   .key = parts[1],
-                   .value = parts[2]}};
+                  {.field = parts[3], .quota = parts[4], .key = parts[1], .value = parts[2]}};
   }
   return std::nullopt;
 }

@@ -1,4 +1,3 @@
-#include <iterator>
 #include <memory>
 #include <string>
 #include <utility>
@@ -10,14 +9,15 @@
 namespace bccskel::server {
 namespace {
 
-// Migration n upgrades tables from version n to version n + 1. Released migrations never change.
-// Servers of the previous version continue with the tables of the next one until they are replaced,
-// so a migration only adds, with defaults.
+constexpr int kVersion = 2;
+
+// From the first release with durable jobs on, a change needs a migration from each released
+// version. It only adds, with defaults: servers of the previous version continue with the tables of
+// the next one until they are replaced.
 //
 // Text is stored as bytes, as callers sent it: it may hold a zero byte, and compares as in SQLite.
-constexpr const char* kPostgresMigrations[] = {
-    // 1
-    R"(
+// The progress of running jobs is for watchers on other servers and may be lost.
+constexpr char kPostgresTables[] = R"(
 CREATE TABLE uploads(
   tenant BYTEA NOT NULL, name BYTEA NOT NULL, declaration BYTEA NOT NULL,
   size_bytes BIGINT NOT NULL, job BYTEA NOT NULL, volume BYTEA NOT NULL, used BIGINT NOT NULL,
@@ -72,46 +72,38 @@ CREATE TABLE removals(
   row_check BIGINT NOT NULL DEFAULT 0, PRIMARY KEY(kind, tenant, name));
 CREATE TABLE servers(
   server BYTEA PRIMARY KEY, beats BIGINT NOT NULL, since TIMESTAMPTZ NOT NULL DEFAULT now());
-)",
-    // 2: the newest progress of running jobs, for watchers on other servers; may be lost.
-    R"(
 CREATE UNLOGGED TABLE progress(
   job BIGINT PRIMARY KEY REFERENCES jobs(number) ON DELETE CASCADE, sequence BIGINT NOT NULL,
   bytes BYTEA NOT NULL);
-)",
-};
-
-constexpr int kVersion = static_cast<int>(std::size(kPostgresMigrations));
+)";
 
 constexpr char kVersionTable[] =
     "CREATE TABLE IF NOT EXISTS store(id BYTEA NOT NULL, version BIGINT NOT NULL);"
     "INSERT INTO store SELECT convert_to(replace(gen_random_uuid()::text, '-', ''), 'UTF8'), 0"
     " WHERE NOT EXISTS (SELECT 1 FROM store);";
 
-absl::Status MigrateWithin(SqlDatabase& database) {
+absl::Status PrepareWithin(SqlDatabase& database) {
   BCCSKEL_RETURN_IF_ERROR(database.Execute(kVersionTable));
   BCCSKEL_ASSIGN_OR_RETURN(auto rows, database.Run("SELECT version FROM store", {}));
   const auto version = static_cast<int>(rows.front().Number());
-  BCCSKEL_RETURN_IF_ERROR(CheckSchemaVersion(version, kVersion));
-  for (int next = version; next < kVersion; ++next) {
-    BCCSKEL_RETURN_IF_ERROR(database.Execute(kPostgresMigrations[next]));
-  }
+  if (version != 0) return CheckSchemaVersion(version, kVersion);
+  BCCSKEL_RETURN_IF_ERROR(database.Execute(kPostgresTables));
   return database.Run("UPDATE store SET version = $1", {SqlValue::Number(kVersion)}).status();
 }
 
 }  // namespace
 
-absl::Status MigratePostgres(SqlDatabase& database) {
+absl::Status PreparePostgres(SqlDatabase& database) {
   BCCSKEL_RETURN_IF_ERROR(database.Begin(""));
-  absl::Status migrated = MigrateWithin(database);
-  if (migrated.ok()) return database.Execute("COMMIT");
+  absl::Status prepared = PrepareWithin(database);
+  if (prepared.ok()) return database.Execute("COMMIT");
   if (database.InTransaction()) database.Execute("ROLLBACK").IgnoreError();
-  return migrated;
+  return prepared;
 }
 
 absl::StatusOr<std::unique_ptr<JobStore>> OpenPostgresJobStore(const std::string& name) {
   BCCSKEL_ASSIGN_OR_RETURN(std::unique_ptr<SqlDatabase> database, OpenPostgres(name));
-  BCCSKEL_RETURN_IF_ERROR(MigratePostgres(*database));
+  BCCSKEL_RETURN_IF_ERROR(PreparePostgres(*database));
   return std::make_unique<JobStore>(std::move(database));
 }
 

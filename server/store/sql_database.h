@@ -79,19 +79,17 @@ absl::StatusOr<std::unique_ptr<SqlDatabase>> OpenSqlite(const std::string& path)
 // Errors: INVALID_ARGUMENT; UNAVAILABLE.
 absl::StatusOr<std::unique_ptr<SqlDatabase>> OpenPostgres(const std::string& name);
 
-// The version of the tables that this program writes. An SQLite file states its version as
-// user_version; 0 if new.
-int SqliteSchemaVersion();
+// The version of the tables of an SQLite file, which it states as user_version; 0 if new.
+inline constexpr int kSqliteSchemaVersion = 6;
 
-// Upgrade the tables to the version that this program writes: an SQLite file version by version,
-// each in a transaction; a shared database in one transaction, while no other server writes.
-// Errors: FAILED_PRECONDITION for a newer version; DATA_LOSS for a damaged file.
-absl::Status MigrateSqlite(SqlDatabase& database);
-absl::Status MigratePostgres(SqlDatabase& database);
+// Create the tables of a new database in one transaction, in a shared one while no other server
+// writes, and check those of others.
+// Errors: FAILED_PRECONDITION for another version; DATA_LOSS for a damaged file.
+absl::Status PrepareSqlite(SqlDatabase& database);
+absl::Status PreparePostgres(SqlDatabase& database);
 
-// Errors: FAILED_PRECONDITION for tables of a version above `known`, the last that this program
-//         knows.
-absl::Status CheckSchemaVersion(int version, int known);
+// Errors: FAILED_PRECONDITION for another version than the one that this program needs.
+absl::Status CheckSchemaVersion(int version, int needed);
 
 }  // namespace bccskel::server
 

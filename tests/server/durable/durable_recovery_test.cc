@@ -181,7 +181,7 @@ TEST_F(DurableFilesTest, DoesNotStartWithTheTablesOfAnotherFolder) {
   std::filesystem::copy(Path("jobs.db"), Path("saved"));
   std::filesystem::copy(folder_ / "other/jobs.db", Path("jobs.db"), over);
   ExpectRefusal();
-  std::filesystem::remove(Path("lock"));  // as a folder of an older server
+  std::filesystem::remove(Path("lock"));  // which names the store
   ExpectRefusal();
   std::filesystem::copy(Path("saved"), Path("jobs.db"), over);
   Open();
