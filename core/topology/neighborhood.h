@@ -6,25 +6,18 @@
 #include <cstdint>
 
 #include "core/lattice/directions.h"
-#include "core/topology/checking_rings.h"
-#include "core/topology/removable_directions.h"
 #include "core/topology/simple_point_table.h"
 
 // Everything that a point's 14 neighbors alone decide. A NeighborMask holds the neighbors that are
-// object points; the point itself is taken to be an object point. The included headers add
-// Condition 1 (simple points), Condition 3 (checking rings) and Conditions 1 to 4 together.
+// object points; the point itself is taken to be an object point. The included header adds
+// Condition 1 (simple points).
 
 namespace bccskel {
 
 // Section 2: point classes.
 constexpr int NeighborsIn(NeighborMask mask) { return std::popcount(mask); }
-constexpr bool IsIsolatedPoint(NeighborMask mask) { return NeighborsIn(mask) == 0; }
 constexpr bool IsEndPoint(NeighborMask mask) { return NeighborsIn(mask) == 1; }
 constexpr bool IsCurvePoint(NeighborMask mask) { return NeighborsIn(mask) == 2; }
-constexpr bool IsDirectedBorderPoint(NeighborMask mask, Direction d) {
-  return (mask & d.Opposite().mask()) == 0;
-}
-constexpr bool HasSequelPoint(NeighborMask mask, Direction d) { return (mask & d.mask()) != 0; }
 
 // For each neighbor n in bit order, the neighbors of n that are neighbors of the point too.
 constexpr std::array<NeighborMask, kNeighborCount> ComputeSharedNeighbors() {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <bit>
+#include <cstdint>
 #include <cstdlib>
 #include <vector>
 
@@ -37,6 +38,22 @@ std::array<RingsOfDirection, 8> AllCheckingRings() {
     }
   }
   return rings;
+}
+
+std::vector<uint8_t> AllRemovableDirections() {
+  std::vector<uint8_t> directions(kAllNeighbors + 1);
+  for (size_t n = 0; n < directions.size(); ++n) {
+    const auto mask = static_cast<NeighborMask>(n);
+    for (int bit = 0; bit < 8; ++bit) {
+      const DiagonalDirection d(bit);
+      // The cheap conditions first: the order does not change the answer.
+      const bool removable = ReferenceIsBorderPoint(mask, d) && ReferenceCondition4(mask, d) &&
+                             ReferenceCondition2(mask) && ReferenceCondition1(mask) &&
+                             ReferenceCondition3(mask, d);
+      directions[n] = static_cast<uint8_t>(directions[n] | removable << bit);
+    }
+  }
+  return directions;
 }
 
 // The one neighbor of an end point.
@@ -119,9 +136,12 @@ bool ReferenceIsBorderPoint(NeighborMask mask, DiagonalDirection d) {
 }
 
 bool ReferenceIsRemovable(NeighborMask mask, DiagonalDirection d) {
-  // The cheap conditions first: the order does not change the answer.
-  return ReferenceIsBorderPoint(mask, d) && ReferenceCondition4(mask, d) &&
-         ReferenceCondition2(mask) && ReferenceCondition1(mask) && ReferenceCondition3(mask, d);
+  return (ReferenceRemovableDirections(mask) >> d.bit() & 1) != 0;
+}
+
+uint8_t ReferenceRemovableDirections(NeighborMask mask) {
+  static const std::vector<uint8_t> directions = AllRemovableDirections();
+  return directions[mask];
 }
 
 bool ReferenceIsStubble(const ReferencePointSet& object, LatticePoint p) {

@@ -1,6 +1,7 @@
 #ifndef BCCSKEL_TESTS_SUPPORT_REFERENCE_CONDITIONS_H_
 #define BCCSKEL_TESTS_SUPPORT_REFERENCE_CONDITIONS_H_
 
+#include <cstdint>
 #include <span>
 
 #include "core/lattice/directions.h"
@@ -25,8 +26,10 @@ bool ReferenceCondition2(NeighborMask mask);
 bool ReferenceCondition3(NeighborMask mask, DiagonalDirection d);
 bool ReferenceCondition4(NeighborMask mask, DiagonalDirection d);
 bool ReferenceIsBorderPoint(NeighborMask mask, DiagonalDirection d);
-// The border point and Conditions 1 to 4 together.
+// The border point and Conditions 1 to 4 together; all directions in which they hold, as bits 0..7.
+// Computed for all neighborhoods on the first call.
 bool ReferenceIsRemovable(NeighborMask mask, DiagonalDirection d);
+uint8_t ReferenceRemovableDirections(NeighborMask mask);
 
 // What p is to its surroundings, by components of object and background among its neighbors: a
 // 1-isthmus has at least two of the object and one of the background, a 2-isthmus one of the object

@@ -1,9 +1,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
+#include "tests/core/topology/mask_symmetries.h"
 #include "tests/support/random_objects.h"
 #include "tests/support/reference_betti.h"
 #include "tests/support/reference_conditions.h"
@@ -34,6 +38,39 @@ TEST(ReferenceBetti, CountsALoopAndACavity) {
   std::erase(shell, LatticePoint{0, 0, 2});
   std::erase(shell, LatticePoint{0, 0, -2});
   EXPECT_EQ(BettiOf(shell), (BettiNumbers{1, 1, 0}));
+}
+
+TEST(ReferenceConditions, LeaveTheKnownNumbersOfNeighborhoods) {
+  for (int bit = 0; bit < 8; ++bit) {
+    const DiagonalDirection d(bit);
+    int simple = 0, with_sequel = 0, with_rings = 0, without_condition_1 = 0, all = 0;
+    for (int n = 0; n <= kAllNeighbors; ++n) {
+      const auto mask = static_cast<NeighborMask>(n);
+      if (!ReferenceIsBorderPoint(mask, d) || !ReferenceCondition2(mask)) continue;
+      const bool is_simple = ReferenceCondition1(mask), rings = ReferenceCondition3(mask, d);
+      simple += is_simple;
+      with_sequel += is_simple && ReferenceCondition4(mask, d);
+      with_rings += is_simple && rings;
+      without_condition_1 += rings && ReferenceCondition4(mask, d);
+      all += ReferenceIsRemovable(mask, d);
+    }
+    EXPECT_EQ(simple, 3737);
+    EXPECT_EQ(with_sequel, 2015);
+    EXPECT_EQ(with_rings, 860);
+    EXPECT_EQ(all, 728);
+    EXPECT_EQ(without_condition_1, 728) << "Condition 1 follows from the others";
+  }
+}
+
+TEST(ReferenceConditions, HaveThePublishedCountsAndHash) {
+  std::array<int, 9> words_by_directions = {};
+  std::vector<uint8_t> bytes;
+  for (int n = 0; n <= kAllNeighbors; ++n) {
+    bytes.push_back(ReferenceRemovableDirections(static_cast<NeighborMask>(n)));
+    ++words_by_directions[static_cast<size_t>(std::popcount(bytes.back()))];
+  }
+  EXPECT_EQ(words_by_directions, (std::array<int, 9>{12216, 2912, 960, 192, 104, 0, 0, 0, 0}));
+  EXPECT_EQ(Fnv1a64(bytes), 0xd84d72ab98709991u);
 }
 
 TEST(ReferenceDistance, TwoScansEqualTheMinimumOverAllBackgroundPoints) {

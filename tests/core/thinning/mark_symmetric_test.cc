@@ -75,6 +75,13 @@ class Circuits : public testing::TestWithParam<Sublattice> {
       for (const MarkedBrick& m : ends) found[m.brick] = m.marks;
     });
   }
+  std::vector<BrickBits> Removable(DiagonalDirection d) const {
+    return Found(state_, GetParam(), [&](auto& bricks, auto& found) {
+      std::vector<MarkedBrick> ends, marked(bricks.size());
+      marked.resize(MarkRemovable(state_.View(), GetParam(), d, bricks, marked.data(), ends));
+      for (const MarkedBrick& m : marked) found[m.brick] = m.marks;
+    });
+  }
   std::vector<BrickBits> EndsAlong(DiagonalDirection d) const {
     return Found(state_, GetParam(), [&](auto& bricks, auto& found) {
       std::vector<MarkedBrick> ends, marked(bricks.size());
@@ -115,6 +122,15 @@ class Circuits : public testing::TestWithParam<Sublattice> {
 TEST_P(Circuits, FindSimplePointsInEveryNeighborhood) {
   ExpectEverywhere([this] { return Simple(EndPoints::kMayGo); }, IsSimple);
   ExpectEverywhere([this] { return Simple(EndPoints::kStay); }, IsSimpleNonEnd);
+}
+
+TEST_P(Circuits, FindRemovablePointsInEveryNeighborhoodAndDirection) {
+  for (int bit = 0; bit < 8; ++bit) {
+    const DiagonalDirection d(bit);
+    SCOPED_TRACE(bit);
+    ExpectEverywhere([&] { return Removable(d); },
+                     [d](NeighborMask mask) { return test::ReferenceIsRemovable(mask, d); });
+  }
 }
 
 TEST_P(Circuits, FindEndPointsInEveryNeighborhood) {

@@ -50,19 +50,10 @@ CliqueCounts CountCliques(int mask) {
 }
 
 TEST(Neighborhood, ClassifiesPointsByTheirNumberOfNeighbors) {
-  EXPECT_TRUE(IsIsolatedPoint(0));
   EXPECT_TRUE(IsEndPoint(0b1000));
   EXPECT_TRUE(IsCurvePoint(0b1001));
   EXPECT_FALSE(IsEndPoint(0b1001));
   EXPECT_FALSE(IsCurvePoint(kAllNeighbors));
-}
-
-TEST(Neighborhood, BorderAndSequelPointsLieOnOppositeSides) {
-  const Direction d(7), opposite(0);
-  EXPECT_TRUE(HasSequelPoint(d.mask(), d));
-  EXPECT_TRUE(IsDirectedBorderPoint(d.mask(), d));
-  EXPECT_FALSE(IsDirectedBorderPoint(d.mask(), opposite));
-  EXPECT_FALSE(HasSequelPoint(d.mask(), opposite));
 }
 
 TEST(Neighborhood, SharesSixNeighborsAlongD8AndFourAlongD6) {

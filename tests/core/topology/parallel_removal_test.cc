@@ -6,6 +6,7 @@
 
 #include "core/topology/neighborhood.h"
 #include "tests/support/reference_betti.h"
+#include "tests/support/reference_conditions.h"
 #include "tests/support/reference_point_set.h"
 
 // The proof that a pass is safe: points removed together from one snapshot keep the topology iff
@@ -148,28 +149,26 @@ int64_t CountUnsafe(const std::vector<Clique>& cliques) {
   return std::ranges::count_if(cliques, [](const Clique& c) { return !HasContractibleLink(c); });
 }
 
-bool Faithful(NeighborMask mask) { return IsRemovable(mask, kDirection); }
+bool Faithful(NeighborMask mask) { return test::ReferenceIsRemovable(mask, kDirection); }
 
 bool BorderSimpleNonEndWithSequel(NeighborMask mask) {
-  return IsDirectedBorderPoint(mask, kDirection) && IsSimpleNonEnd(mask) &&
-         HasSequelPoint(mask, kDirection);
+  return test::ReferenceIsBorderPoint(mask, kDirection) && IsSimpleNonEnd(mask) &&
+         test::ReferenceCondition4(mask, kDirection);
 }
 
-bool Meets(NeighborMask mask, const Implication& arc) {
-  return (mask & arc.near.mask()) == 0 || (mask & arc.far.mask()) != 0;
-}
-
-// Conditions 1, 2 and 4 with the implications of the given `near` bits only.
-Rule WithImplications(std::vector<int> near_bits) {
-  return [near_bits](NeighborMask mask) {
-    if (!BorderSimpleNonEndWithSequel(mask)) return false;
-    for (const Implication& arc : ImplicationsOf(kDirection)) {
-      if (std::ranges::find(near_bits, arc.near.bit()) != near_bits.end() && !Meets(mask, arc)) {
-        return false;
-      }
-    }
-    return true;
+// Conditions 1, 2 and 4, and one implication for each of the given neighbors: if it is an object
+// point, so is the point next to it along d.
+Rule WithImplications(std::vector<int> bits) {
+  return [bits](NeighborMask mask) {
+    return BorderSimpleNonEndWithSequel(mask) && std::ranges::all_of(bits, [mask](int bit) {
+             const Direction along = *FindDirection(Direction(bit).offset() + kD);
+             return (mask >> bit & 1) == 0 || (mask & along.mask()) != 0;
+           });
   };
+}
+
+TEST(ParallelRemoval, SixImplicationsAreCondition3) {
+  EXPECT_EQ(MasksThatMeet(WithImplications({1, 2, 4, 9, 11, 13})), MasksThatMeet(Faithful));
 }
 
 TEST(ParallelRemoval, All54675PairsAreSafe) {
@@ -209,8 +208,9 @@ TEST(ParallelRemoval, NoFourMutuallyAdjacentPointsGoTogether) {
 TEST(ParallelRemoval, OneRingInsteadOfAllThreeGives10095UnsafePairs) {
   const auto some_ring = [](NeighborMask mask) {
     return BorderSimpleNonEndWithSequel(mask) &&
-           std::ranges::any_of(CheckingRingsThrough(kDirection), [mask](NeighborMask ring) {
-             return ComponentsIn(mask & ring) == 1;
+           std::ranges::any_of(kDirections14, [mask](LatticePoint other) {
+             return !FindDirection(other)->is_diagonal() &&
+                    ComponentsIn(mask & test::ReferenceCheckingRing(other, kD)) == 1;
            });
   };
   EXPECT_EQ(CountUnsafe(CliquesOf(2, MasksThatMeet(some_ring))), 10095);
@@ -249,8 +249,8 @@ void ExpectSplits(const std::vector<LatticePoint>& points, const Rule& rule) {
 
 TEST(ParallelRemoval, SplitsAnObjectWithoutCondition4) {
   ExpectSplits({{0, 0, 0}, {1, -1, -1}, {1, -1, 1}, {1, 1, -1}}, [](NeighborMask mask) {
-    return IsDirectedBorderPoint(mask, kDirection) && IsSimpleNonEnd(mask) &&
-           SatisfiesCheckingRings(mask, kDirection);
+    return test::ReferenceIsBorderPoint(mask, kDirection) && IsSimpleNonEnd(mask) &&
+           test::ReferenceCondition3(mask, kDirection);
   });
 }
 

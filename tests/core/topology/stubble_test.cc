@@ -66,7 +66,7 @@ TEST(Stubble, ANeighborThatHasMoreThanTheEndPointIsNeitherSimpleNorAnEndPoint) {
       const Direction p(bit);
       if ((q & p.mask()) == 0 || NeighborsIn(q) < 2) continue;
       if ((q & NeighborsAmongN14(p)) != 0) continue;
-      ASSERT_FALSE(IsSimple(q) || IsEndPoint(q) || RemovableDirections(q) != 0) << n;
+      ASSERT_FALSE(IsSimple(q) || IsEndPoint(q) || test::ReferenceRemovableDirections(q) != 0) << n;
     }
   }
 }
@@ -83,7 +83,8 @@ TEST(StubbleLaw, GoesInTheSamePassAsConditions1To4WithoutChangingTheTopology) {
     const test::ReferencePointSet snapshot(points);
     test::ReferencePointSet object(points);
     for (LatticePoint p : candidates) {
-      if (rule(snapshot, p) || IsRemovable(snapshot.NeighborsOf(p), d)) object.Erase(p);
+      if (rule(snapshot, p) || test::ReferenceIsRemovable(snapshot.NeighborsOf(p), d))
+        object.Erase(p);
     }
     EXPECT_EQ(test::ReferenceBetti(object), test::ReferenceBetti(snapshot));
   }

@@ -5,6 +5,7 @@
 #include "core/topology/neighborhood.h"
 #include "tests/support/random_objects.h"
 #include "tests/support/reference_betti.h"
+#include "tests/support/reference_conditions.h"
 #include "tests/support/reference_point_set.h"
 #include "tests/support/reference_thinner.h"
 
@@ -21,7 +22,7 @@ TEST(Thinness, TheStuckObjectHasASimplePointThatNoDirectionRemoves) {
   const NeighborMask mask = object.NeighborsOf({1, 1, 1});
   EXPECT_EQ(NeighborsIn(mask), 4);
   EXPECT_TRUE(IsSimpleNonEnd(mask));
-  EXPECT_EQ(RemovableDirections(mask), 0);
+  EXPECT_EQ(test::ReferenceRemovableDirections(mask), 0);
 }
 
 TEST(Thinness, TheStuckObjectStaysWithoutCleanupAndIsThinWithIt) {
