@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/ranks/rank_skeletonize.h"
-#include "core/ranks/thread_exchange.h"
 #include "core/volume/layer_part.h"
+#include "tests/core/ranks/thread_exchange.h"
 #include "tests/support/random_objects.h"
 
 namespace bccskel {

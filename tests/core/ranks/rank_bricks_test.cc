@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/import/shapes/shapes.h"
-#include "core/ranks/thread_exchange.h"
+#include "tests/core/ranks/thread_exchange.h"
 #include "tests/support/object_parts.h"
 #include "tests/support/random_objects.h"
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/distance/distance_field.h"
-#include "core/ranks/thread_exchange.h"
 #include "core/volume/layer_part.h"
+#include "tests/core/ranks/thread_exchange.h"
 #include "tests/support/contexts.h"
 #include "tests/support/random_objects.h"
 

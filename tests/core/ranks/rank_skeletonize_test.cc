@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/ranks/thread_exchange.h"
 #include "core/volume/layer_part.h"
+#include "tests/core/ranks/thread_exchange.h"
 #include "tests/support/random_objects.h"
 #include "tests/support/volume_where.h"
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/import/shapes/shapes.h"
-#include "core/ranks/thread_exchange.h"
 #include "core/volume/layer_part.h"
+#include "tests/core/ranks/thread_exchange.h"
 #include "tests/support/random_objects.h"
 
 namespace bccskel {
