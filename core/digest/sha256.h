@@ -2,7 +2,6 @@
 #define BCCSKEL_CORE_DIGEST_SHA256_H_
 
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -21,8 +20,8 @@ struct Sha256Digest {
   friend bool operator==(const Sha256Digest&, const Sha256Digest&) = default;
 };
 
-// SHA-256 (FIPS 180-4) of a message in parts. Numbers are added little-endian, doubles
-// as their IEEE 754 bits, so that a digest is the same on every machine.
+// SHA-256 (FIPS 180-4) of a message in parts. Numbers are added little-endian, so
+// that a digest is the same on every machine.
 // Threads: one at a time per object.
 class Sha256 {
  public:
@@ -33,21 +32,16 @@ class Sha256 {
 
   void Add(std::span<const std::byte> bytes);
   void Add(std::string_view bytes) { Add(std::as_bytes(std::span(bytes))); }
-  void AddUint32(uint32_t value) { AddLittleEndian(value); }
-  void AddUint64(uint64_t value) { AddLittleEndian(value); }
-  void AddDouble(double value) { AddLittleEndian(std::bit_cast<uint64_t>(value)); }
+  void AddUint64(uint64_t value) {
+    std::array<std::byte, sizeof(value)> bytes;
+    for (size_t n = 0; n < bytes.size(); ++n) bytes[n] = static_cast<std::byte>(value >> (8 * n));
+    Add(bytes);
+  }
 
   // The digest of everything added since the start or the last Finish(); starts a new message.
   Sha256Digest Finish();
 
  private:
-  template <typename Unsigned>
-  void AddLittleEndian(Unsigned value) {
-    std::array<std::byte, sizeof(Unsigned)> bytes;
-    for (size_t n = 0; n < bytes.size(); ++n) bytes[n] = static_cast<std::byte>(value >> (8 * n));
-    Add(bytes);
-  }
-
   class State;  // keeps Nettle's header out of this one
   std::unique_ptr<State> state_;
 };

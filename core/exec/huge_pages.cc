@@ -8,29 +8,13 @@
 
 namespace bccskel::exec {
 
-namespace {
-
+void PreferHugePages([[maybe_unused]] void* block, [[maybe_unused]] size_t bytes) {
 #if defined(__linux__)
-void Advise(void* block, size_t bytes, int advice) {
   constexpr uintptr_t kPage = uintptr_t{2} << 20;
   const auto address = reinterpret_cast<uintptr_t>(block);
   const uintptr_t first = (address + kPage - 1) & ~(kPage - 1),
                   last = (address + bytes) & ~(kPage - 1);
-  if (first < last) (void)madvise(reinterpret_cast<void*>(first), last - first, advice);
-}
-#endif
-
-}  // namespace
-
-void PreferHugePages([[maybe_unused]] void* block, [[maybe_unused]] size_t bytes) {
-#if defined(__linux__)
-  Advise(block, bytes, MADV_HUGEPAGE);
-#endif
-}
-
-void DropHugePages([[maybe_unused]] void* block, [[maybe_unused]] size_t bytes) {
-#if defined(__linux__)
-  Advise(block, bytes, MADV_DONTNEED);
+  if (first < last) (void)madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);
 #endif
 }
 

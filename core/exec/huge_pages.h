@@ -11,9 +11,6 @@ namespace bccskel::exec {
 // of a large object's surface a page-table walk. A hint: nothing depends on it.
 void PreferHugePages(void* block, size_t bytes);
 
-// Returns the huge pages inside a block to the system. Their contents are lost.
-void DropHugePages(void* block, size_t bytes);
-
 // Reserves `count` elements, on huge pages if they are large. Needs: an empty vector.
 template <typename T, typename Allocator>
 void ReserveLarge(size_t count, std::vector<T, Allocator>& into) {

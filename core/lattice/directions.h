@@ -57,7 +57,6 @@ class DiagonalDirection {
   constexpr int bit() const { return bit_; }
   constexpr operator Direction() const { return Direction(bit_); }  // NOLINT: it is a Direction
   constexpr LatticePoint offset() const { return kDirections14[bit_]; }
-  constexpr DiagonalDirection Opposite() const { return DiagonalDirection(7 - bit_); }
   friend constexpr bool operator==(DiagonalDirection, DiagonalDirection) = default;
 
  private:

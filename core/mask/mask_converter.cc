@@ -7,16 +7,6 @@
 
 namespace bccskel {
 
-double VoxelEdge(const MaskOptions& options) {
-  constexpr double kUnitsPerPoint = 4;  // cubic ones
-  if (!options.sampling) return options.points == VoxelPoints::kTwo ? 2 : 4;
-  const double points = options.sampling->points_per_voxel;
-  // Newton's method: the library's cube root differs between machines in the last bit.
-  double edge = 4;
-  for (int n = 0; n < 60; ++n) edge = (2 * edge + kUnitsPerPoint * points / (edge * edge)) / 3;
-  return edge;
-}
-
 absl::StatusOr<MaskConverter> MaskConverter::Create(const MaskGrid& grid,
                                                     const MaskOptions& options) {
   BCCSKEL_RETURN_IF_ERROR(CheckMaskGrid(grid));

@@ -31,10 +31,6 @@ struct MaskOptions {
   LayerPart part = {};  // the part of the object to create
 };
 
-// The edge of a voxel in lattice units, which is the height of the steps of the object's surface: 2
-// after the exact conversion, 4 with sixteen points per voxel.
-double VoxelEdge(const MaskOptions& options);
-
 struct ConvertedMask {
   Volume volume;      // the part of the object
   BettiNumbers mask;  // of the whole mask, on the cubic grid, by MaskOptions::adjacency

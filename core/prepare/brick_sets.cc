@@ -90,10 +90,6 @@ LatticeExtent WithRoom(const LatticeExtent& extent, BrickCoordinates room) {
           cells(extent.nz, kBrickZ, room.bz)};
 }
 
-LatticePoint ShiftOf(BrickCoordinates room) {
-  return {2 * kBrickX * room.bx, 2 * kBrickY * room.by, 2 * kBrickZ * room.bz};
-}
-
 Volume ShiftedBy(const Volume& volume, BrickCoordinates by, int32_t times, LatticeExtent extent) {
   std::vector<BrickKey> keys;
   keys.reserve(volume.brick_count());

@@ -17,8 +17,6 @@ Volume Difference(const Volume& a, const Volume& b);
 BrickCoordinates RoomFor(double reach);
 // The extent in whole bricks, with room on all sides.
 LatticeExtent WithRoom(const LatticeExtent& extent, BrickCoordinates room);
-// The offset of points in an extent with room.
-LatticePoint ShiftOf(BrickCoordinates room);
 
 // The points moved by `times` times `by` bricks. Needs: they lie in the extent.
 Volume ShiftedBy(const Volume& volume, BrickCoordinates by, int32_t times, LatticeExtent extent);

@@ -36,8 +36,6 @@ struct PointChanges {
   int64_t removed = 0;
 };
 
-enum class ObjectPoints : uint8_t { kMayGo, kStay };
-
 }  // namespace
 }  // namespace bccskel
 #endif  // BCCSKEL_CORE_PREPARE_DENOISE_ONCE_
@@ -66,7 +64,7 @@ HWY_INLINE Plane AtLeastEight(const Plane& own, const Plane (&p)[kNeighborCount]
   return Majority(fours_a, fours_b, Majority(twos_a, twos_b, twos_g));
 }
 
-PointChanges DenoiseBricksTarget(const RoomyObject& object, ObjectPoints points, exec::Share share,
+PointChanges DenoiseBricksTarget(const RoomyObject& object, exec::Share share,
                                  std::span<BrickBits> out) {
   PointChanges changes;
   for (size_t n = share.begin; n < share.end; ++n) {
@@ -77,8 +75,7 @@ PointChanges DenoiseBricksTarget(const RoomyObject& object, ObjectPoints points,
     } else {
       AllPlanes<Sublattice::kOdd>(object.bricks.data(), object.neighbors[n], own, planes);
     }
-    Plane now = AtLeastEight(own, planes);
-    if (points == ObjectPoints::kStay) now = Or(own, now);
+    const Plane now = AtLeastEight(own, planes);
     changes.added += static_cast<int64_t>(CountBits(AndNot(own, now)));
     changes.removed += static_cast<int64_t>(CountBits(AndNot(now, own)));
     StorePlane(now, out[n]);
@@ -130,14 +127,14 @@ RoomyObject WithRoom(const Volume& object) {
   return roomy;
 }
 
-absl::StatusOr<ChangedVolume> TakeMajority(const Volume& object, ObjectPoints points,
-                                           const exec::Context& context) {
+}  // namespace
+
+absl::StatusOr<ChangedVolume> Denoise(const Volume& object, const exec::Context& context) {
   RoomyObject roomy = WithRoom(object);
   std::vector<BrickBits> bricks(roomy.keys.size());
   std::atomic<int64_t> removed = 0;
   const int64_t added = SumOverBricks(context, bricks.size(), [&](int, exec::Share batch) {
-    const PointChanges changes =
-        HWY_DYNAMIC_DISPATCH(DenoiseBricksTarget)(roomy, points, batch, bricks);
+    const PointChanges changes = HWY_DYNAMIC_DISPATCH(DenoiseBricksTarget)(roomy, batch, bricks);
     removed += changes.removed;
     return changes.added;
   });
@@ -148,16 +145,6 @@ absl::StatusOr<ChangedVolume> TakeMajority(const Volume& object, ObjectPoints po
   changed.object = Volume::FromSortedBricks(object.extent(), object.placement(),
                                             std::move(roomy.keys), std::move(bricks));
   return changed;
-}
-
-}  // namespace
-
-absl::StatusOr<ChangedVolume> Denoise(const Volume& object, const exec::Context& context) {
-  return TakeMajority(object, ObjectPoints::kMayGo, context);
-}
-
-absl::StatusOr<ChangedVolume> FillPits(const Volume& object, const exec::Context& context) {
-  return TakeMajority(object, ObjectPoints::kStay, context);
 }
 
 }  // namespace bccskel

@@ -19,11 +19,6 @@ namespace bccskel {
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
 absl::StatusOr<ChangedVolume> Denoise(const Volume& object, const exec::Context& context);
 
-// Adds only the points that Denoise() would add: pits, which are background points with at least
-// eight object neighbors. A convex object has none: of two opposite neighbors of a background
-// point, one is background.
-absl::StatusOr<ChangedVolume> FillPits(const Volume& object, const exec::Context& context);
-
 }  // namespace bccskel
 
 #endif  // BCCSKEL_CORE_PREPARE_DENOISE_H_

@@ -10,7 +10,8 @@
 
 namespace bccskel {
 
-// Computes the distance of a few object points to the background without pits (FillPits()).
+// Computes the distance of a few object points to the background without pits, which are background
+// points with at least eight object neighbors: those that Denoise() would add.
 // Does:  finds the nearest background point. While that is a pit, removes it from the background
 //        and searches again. Few pits lie near tips; filling those of the whole object and locating
 //        the border of the resulting background took as long as 600 searches.

@@ -43,11 +43,8 @@ TEST(Sha256, StartsANewMessageAfterFinish) {
 
 TEST(Sha256, AddsNumbersLittleEndian) {
   Sha256 sha;
-  sha.AddUint32(0x04030201u);
   sha.AddUint64(0x0807060504030201u);
-  sha.AddDouble(1.0);  // 0x3ff0000000000000
-  EXPECT_EQ(sha.Finish(),
-            Sha256Of(std::string_view("\1\2\3\4\1\2\3\4\5\6\7\10\0\0\0\0\0\0\xf0\x3f", 20)));
+  EXPECT_EQ(sha.Finish(), Sha256Of("\1\2\3\4\5\6\7\10"));
 }
 
 }  // namespace

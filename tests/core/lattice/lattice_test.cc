@@ -127,11 +127,6 @@ TEST(Direction, OppositeTurnsItsOffsetAroundAndBack) {
     EXPECT_EQ(d.Opposite().Opposite(), d);
     EXPECT_NE(d.Opposite(), d);
   }
-  for (int bit = 0; bit < 8; ++bit) {
-    const DiagonalDirection d(bit);
-    EXPECT_EQ(Direction(d).Opposite(), Direction(d.Opposite()));
-    EXPECT_EQ(d.Opposite().bit(), 7 - bit);
-  }
 }
 
 TEST(Direction, MasksAreOneBitEachAndFillTheNeighborhood) {

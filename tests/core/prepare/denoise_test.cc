@@ -53,21 +53,8 @@ TEST(DenoiseLaw, IsTheSameForAnyNumberOfThreads) {
   }
 }
 
-TEST(FillPitsLaw, AddsWhatDenoisingAddsAndRemovesNothing) {
-  for (const Points& points : Objects()) {
-    const Volume object = VolumeOfPoints(points);
-    const ChangedVolume denoised = Denoised(object), filled = FillPits(object, {}).value();
-    Points expected = points;
-    denoised.object.ForEachPoint([&](LatticePoint p) {
-      if (!object.Contains(p)) expected.push_back(p);
-    });
-    EXPECT_EQ(filled.object.SortedPoints(), test::Sorted(expected));
-    EXPECT_EQ(filled.points_added, denoised.points_added);
-    EXPECT_EQ(filled.points_removed, 0u);
-  }
-}
-
-TEST(FillPits, FindsNoneInABall) {
+// Of two opposite neighbors of a background point, one is background.
+TEST(Denoise, AddsNothingToABall) {
   Points ball;
   for (Sublattice s : kSublattices) {
     for (int32_t n = 0; n < 32 * 32 * 32; ++n) {
@@ -76,7 +63,7 @@ TEST(FillPits, FindsNoneInABall) {
       if (way.x * way.x + way.y * way.y + way.z * way.z <= 600) ball.push_back(p);
     }
   }
-  EXPECT_EQ(FillPits(VolumeOfPoints(ball), {}).value().points_added, 0u);
+  EXPECT_EQ(Denoised(VolumeOfPoints(ball)).points_added, 0u);
 }
 
 TEST(DenoiseLaw, CountsWhatItAddsAndRemoves) {
