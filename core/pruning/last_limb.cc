@@ -18,23 +18,26 @@ size_t LastLimb::BeginIn(const ThinSet& set, std::span<const LatticePoint> path,
   double most = std::numeric_limits<double>::infinity();
   for (size_t n = path.size() - 1; n-- > first;) {
     const double radius = set.RadiusOf(path[n]);
-    if (radius > most) return IsBranch(set, path.subspan(n)) ? n + 1 : first;
-    if (SticksOut(set, path[n], path.back())) most = std::min(most, kBead * radius);
+    if (radius > most) {
+      if (SignificanceOf(set, path.subspan(n)) >= WithDefaults({}).threshold) return n + 1;
+      most = kBead * radius;  // the limb may begin farther back, behind a thicker bead
+    } else if (SticksOut(set, path[n], path.back())) {
+      most = std::min(most, kBead * radius);
+    }
   }
   return first;
 }
 
-// By more than noise causes, so that IsBranch(), which is slower, is rarely called.
+// By more than noise causes, so that SignificanceOf(), which is slower, is rarely called.
 bool LastLimb::SticksOut(const ThinSet& set, LatticePoint root, LatticePoint tip) const {
   const double radius = set.RadiusOf(root), fallen = radius - set.RadiusOf(tip);
   const double allowance = noise_.Stretch(set.Way(root, tip)) * noise_.At(radius);
   return set.Between(root, tip) - kSteepness * fallen > allowance;
 }
 
-bool LastLimb::IsBranch(const ThinSet& set, std::span<const LatticePoint> path) {
+double LastLimb::SignificanceOf(const ThinSet& set, std::span<const LatticePoint> path) {
   if (!significance_.has_value()) significance_.emplace(object_, noise_);
-  const FreeBranch branch = {{path.rbegin(), path.rend() - 1}, path.front()};
-  return significance_->Of(set, branch) >= WithDefaults({}).threshold;
+  return significance_->Of(set, {{path.rbegin(), path.rend() - 1}, path.front()});
 }
 
 }  // namespace bccskel

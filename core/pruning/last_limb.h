@@ -24,10 +24,11 @@ class LastLimb {
   // of `set` whose last point is an end; `first` is a position in it.
   size_t BeginIn(const ThinSet& set, std::span<const LatticePoint> path, size_t first);
 
+  // Of the path as a branch of its first point. Needs: as above; at least two points.
+  double SignificanceOf(const ThinSet& set, std::span<const LatticePoint> path);
+
  private:
   bool SticksOut(const ThinSet& set, LatticePoint root, LatticePoint tip) const;
-  bool IsBranch(const ThinSet& set, std::span<const LatticePoint> path);
-
   const Volume& object_;
   const SurfaceNoise noise_;
   std::optional<Significance> significance_;  // created on first use

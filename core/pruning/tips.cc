@@ -16,6 +16,7 @@
 #include "core/pruning/last_limb.h"
 #include "core/pruning/limb_anchor.h"
 #include "core/pruning/pruning_defaults.h"
+#include "core/pruning/tip_steps.h"
 
 namespace bccskel {
 namespace {
@@ -28,17 +29,18 @@ constexpr double kGainByNoise = 0.06;  // and this share of the noise allowance,
 constexpr double kAimRadii = 1.75;     // as kCutRadii, for the point that shows the direction
 constexpr double kHairLength = 6;  // in lattice units; longer ends of single points are thin limbs,
 constexpr double kHairRadii = 2;   // and what is longer by the limb's radius
-constexpr size_t kHeadingPoints = 10;  // whose direction is the way ahead
-constexpr double kLeastCosine = 0.4;   // between the way ahead and a step
-constexpr double kCosineWeight = 0.5;  // against the rise of the distance
 constexpr double kGrowthRadii = 2;   // of the limb's root: how far tips grow, as to a cone's point,
 constexpr double kGrowthMargin = 6;  // and lattice units
 constexpr double kLongStep = 2;  // on lattices with longer steps by one radius: caps are too coarse
 constexpr double kOffArc = 0.25;  // of its points from the arc of a bent limb, of its height
 constexpr double kOffArcAtRoot = kOffArc / 2;  // where the arc begins with the limb
-constexpr double kPatience = 4;                // how far below the best a growing tip may fall
-constexpr int kMajority = 7;                   // of 14 neighbors, with the point itself
-constexpr int kThinner = 3;  // in thin limbs: so many fewer than their points have
+// Where the ridge goes on by so many radii and units beside the way straight on, the limb turns.
+constexpr double kTurnRadii = 0.75;
+constexpr double kTurnMargin = 2;
+constexpr double kLimbAfterFlat = 0.95;  // least significance; corners of strips reach 0.9
+constexpr double kPatience = 4;          // how far below the best a growing tip may fall
+constexpr int kMajority = 7;             // of 14 neighbors, with the point itself
+constexpr int kThinner = 3;              // in thin limbs: so many fewer than their points have
 
 class TipPlacer {
  public:
@@ -50,12 +52,14 @@ class TipPlacer {
         radius_(radius),
         searching_(radius.searches() ? radius : ExactRadius(space)),
         depth_(space, searching_),
+        steps_(set, object, depth_),
         flat_(object, searching_, depth_),  // it ends at the border
         last_limb_(object, noise),
         keep_(keep),
         turned_(turned),
         balls_(set, AxisScaleOf(object.placement()), context),
-        step_(std::ranges::max(AxisScaleOf(object.placement()))),
+        scale_(AxisScaleOf(object.placement())),
+        step_(std::ranges::max(scale_)),
         least_gain_(kGainBySteps * noise.step + kGainByNoise * noise.thin),
         noise_(noise) {}
 
@@ -74,8 +78,7 @@ class TipPlacer {
     way_on_ = {};
     direction_ = Unit(set_.Way(anchor_, AimFrom(FirstCut(kAimRadii))));
     const size_t first = FirstCut(kCutRadii);
-    GrowAnew(first);
-    CutAfter(SafestFrom(first));
+    CutAfter(SafestFrom(GrowAnew(first)));
     MeasureGrown();
   }
 
@@ -116,10 +119,30 @@ class TipPlacer {
     const auto root = std::ranges::find(path_, root_);
     if (root != path_.end()) path_.erase(path_.begin(), root);
     const std::optional<FlatEnd::Tip> tip = flat_.In(path_, set_);
-    if (!tip.has_value()) return false;
-    if (!GrowInFlat(*tip)) CutAfter(tip->last);
+    if (!tip.has_value() || (!tip->middle.empty() && IsLimbAfter(NearestTo(tip->middle.back())))) {
+      return false;
+    }
+    if (!GrowInFlat(*tip)) {
+      if (IsLimbAfter(tip->last)) return false;
+      CutAfter(tip->last);
+    }
     MeasureGrown();
     return true;
+  }
+
+  // Whether what follows sticks out: a limb of its own, whose path came through a flat body.
+  bool IsLimbAfter(size_t position) {
+    const auto after = std::span(path_).subspan(position);
+    return after.size() > 1 && last_limb_.SignificanceOf(set_, after) >= kLimbAfterFlat;
+  }
+
+  // Position in the path.
+  size_t NearestTo(const Coordinates& place) const {
+    const auto square = [&](LatticePoint p) {
+      const Coordinates way = Sum(PlaceOf(p, scale_), -1, place);
+      return Dot(way, way);
+    };
+    return static_cast<size_t>(std::ranges::min_element(path_, {}, square) - path_.begin());
   }
 
   // Returns whether the limb grew along its middle; otherwise nothing changed.
@@ -154,6 +177,21 @@ class TipPlacer {
       if (MeritAtMost(path_[n], slope) <= most || Merit(path_[n], slope) <= most) continue;
       best = n;
       most = Merit(path_[n], slope);
+    }
+    return best;
+  }
+
+  // Position in the path of the last point up to which the depth falls by less than 0.3 per unit of
+  // the path, wherever that leads.
+  size_t RidgeEndFrom(size_t first) {
+    size_t best = first;
+    double length = 0, most = depth_.At(path_[first]);
+    for (size_t n = first + 1; n < path_.size(); ++n) {
+      length += set_.Between(path_[n - 1], path_[n]);
+      const double merit = kRidgeSlope * length + depth_.At(path_[n]);
+      if (merit < most) continue;
+      best = n;
+      most = merit;
     }
     return best;
   }
@@ -233,16 +271,22 @@ class TipPlacer {
   }
 
   // Thinning may leave the ridge before the limb ends, so the path is grown again from the last
-  // point that is certainly on the ridge. Single points do not grow.
-  void GrowAnew(size_t first) {
-    if (!IsFirm(path_.back())) return;
-    CutAfter(BestFrom(first, kRidgeSlope));
+  // point that is certainly on the ridge. Single points do not grow. Returns the position in the
+  // path of the first point that may become the tip.
+  size_t GrowAnew(size_t first) {
+    if (!IsFirm(path_.back())) return first;
+    const size_t straight = BestFrom(first, kRidgeSlope), ridge_end = RidgeEndFrom(first);
+    const bool turns = set_.Between(path_[straight], path_[ridge_end]) >
+                       kTurnRadii * set_.RadiusOf(path_[ridge_end]) + kTurnMargin;
+    CutAfter(turns ? ridge_end : straight);
+    if (turns) first = ridge_end;
     ridge_end_ = path_.back();
     WayOn on = WayOnFrom(set_, step_, anchor_, path_);
     if (FollowBend()) on.way = direction_;
     Extend();
     const double corner = kCornerRadii * set_.RadiusOf(ridge_end_) + kCutMargin;
     if (set_.Between(ridge_end_, path_.back()) <= corner) way_on_ = on;
+    return first;
   }
 
   // A bent limb has turned away from the direction in which it left its anchor. Returns whether it
@@ -267,7 +311,7 @@ class TipPlacer {
     const LatticePoint start = path_.back();
     const double radii = step_ < kLongStep ? kGrowthRadii : 1;
     const double longest = radii * root_radius_ + kGrowthMargin;
-    while (const std::optional<LatticePoint> next = NextTip()) {
+    while (const std::optional<LatticePoint> next = steps_.Next(path_, anchor_)) {
       if (!IsFirm(*next) || set_.Between(*next, start) > longest || IsInBallOfAnother(*next)) break;
       Append(*next);
       const double merit = Merit(*next);
@@ -292,72 +336,18 @@ class TipPlacer {
     }
   }
 
-  // A candidate for the next point.
-  struct Step {
-    LatticePoint to;
-    size_t rank = 0;
-    double length = 0;
-    double straightness = 0;  // its part of the score
-    double score_most = 0;    // the score is no more
-  };
-
-  // The next object point, the first of the best; its only neighbor in the set is the tip. Finding
-  // depths is slow, so the most promising steps come first and rule out most others.
-  std::optional<LatticePoint> NextTip() {
-    const double depth = depth_.At(path_.back());
-    const Step* best = nullptr;
-    double best_score = 0;
-    FindSteps(depth);
-    for (const Step& step : steps_) {
-      if (best != nullptr && step.score_most < best_score) break;
-      const double score = (depth_.At(step.to) - depth) / step.length + step.straightness;
-      const bool is_better =
-          best == nullptr || score > best_score || (score == best_score && step.rank < best->rank);
-      if (!is_better) continue;
-      best = &step;
-      best_score = score;
-    }
-    return best == nullptr ? std::nullopt : std::optional(best->to);
-  }
-
-  void FindSteps(double depth) {
-    const LatticePoint tip = path_.back();
-    const LatticePoint from =
-        path_.size() > kHeadingPoints ? path_[path_.size() - 1 - kHeadingPoints] : anchor_;
-    steps_.clear();
-    for (size_t rank = 0; rank < kDirections14.size(); ++rank) {
-      const LatticePoint to = tip + kDirections14[rank];
-      const double cosine = Cosine(from, tip, to);
-      if (cosine < kLeastCosine || !IsFreeWay(tip, to)) continue;
-      const double length = set_.Between(tip, to), straightness = kCosineWeight * cosine;
-      const double score_most = (depth_.AtMost(to) - depth) / length + straightness;
-      steps_.push_back({to, rank, length, straightness, score_most});
-    }
-    std::ranges::sort(steps_, std::ranges::greater(), &Step::score_most);
-  }
-
-  bool IsFreeWay(LatticePoint tip, LatticePoint next) {
-    if (!bricks_.Contains(next) || set_.Contains(next)) return false;
-    if (set_.Between(next, anchor_) <= set_.Between(tip, anchor_)) return false;
-    return std::has_single_bit(set_.NeighborsAround(next));
-  }
-
-  // Between the ways a -> b and b -> c, by the law of cosines.
-  double Cosine(LatticePoint a, LatticePoint b, LatticePoint c) const {
-    const double ab = set_.Between(a, b), bc = set_.Between(b, c), ac = set_.Between(a, c);
-    return (ac * ac - ab * ab - bc * bc) / (2 * ab * bc);
-  }
-
   ThinSet& set_;
   NearbyBricks bricks_;
   ExactRadius radius_;
   const ExactRadius searching_;
   FirmDepth depth_;
+  TipSteps steps_;
   FlatEnd flat_;
   LastLimb last_limb_;
   const PointSet& keep_;
   const TurnedTips& turned_;
   BallIndex balls_;
+  const AxisScale scale_;
   const double step_;  // the longest step along an axis, in lattice units
   const double least_gain_;
   const SurfaceNoise noise_;
@@ -372,7 +362,6 @@ class TipPlacer {
   LatticePoint ridge_end_;          // the last point that is certainly on the ridge
   WayOn way_on_;                    // from there
   std::vector<LatticePoint> path_;  // from the anchor, which is not part of it, to the tip
-  std::vector<Step> steps_;         // from the tip, the most promising first
 };
 
 }  // namespace

@@ -8,20 +8,12 @@
 #include <numbers>
 
 #include "core/pipeline/skeletonize.h"
-#include "tests/support/volume_where.h"
+#include "tests/core/pruning/sampled.h"
 
 namespace bccskel {
 namespace {
 
-// The points of a cube that lie in the solid, turned about the cube's middle, which is its origin.
-Volume Sampled(const std::function<bool(const WorldPoint&)>& contains, int32_t cells, double turn) {
-  const double c = std::cos(turn), s = std::sin(turn);
-  return test::VolumeWhere({cells, cells, cells}, [&](int32_t i, int32_t j, int32_t k) {
-    const double x = i - cells, y = j - cells, z = k - cells;
-    const double once = s * x + c * y;
-    return contains({c * x - s * y, c * once - s * z, s * once + c * z});
-  });
-}
+using test::Sampled;
 
 // The radii of the ends of a path, in lattice units, the smaller first.
 std::array<double, 2> EndRadiiOf(const Volume& object) {

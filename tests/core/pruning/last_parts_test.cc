@@ -1,0 +1,118 @@
+// Limbs whose last part thinning reaches: feet, beaks and teeth keep their curves.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <numbers>
+
+#include "core/pipeline/skeletonize.h"
+#include "tests/core/pruning/sampled.h"
+
+namespace bccskel {
+namespace {
+
+// The distance from a place of the solid to the nearest end of its skeleton, in lattice units.
+double GapAt(const WorldPoint& place, const SkeletonGraph& graph, int32_t cells, double turn) {
+  double gap = std::numeric_limits<double>::infinity();
+  for (const SkeletonNode& node : graph.nodes) {
+    if (node.kind != NodeKind::kEnd) continue;
+    gap = std::min(gap, DistanceBetween(place, test::InFrame(node.at.point, cells, turn)));
+  }
+  return gap;
+}
+
+// The distance to the surface of a limb whose radius changes from `at_a` to `at_b`, less inside.
+double ToLimb(const WorldPoint& p, const WorldPoint& a, double at_a, const WorldPoint& b,
+              double at_b) {
+  WorldPoint axis, way;
+  double square = 0, along = 0;
+  for (size_t n = 0; n < 3; ++n) {
+    axis[n] = b[n] - a[n];
+    way[n] = p[n] - a[n];
+    square += axis[n] * axis[n];
+    along += axis[n] * way[n];
+  }
+  const double part = square == 0 ? 0 : std::clamp(along / square, 0.0, 1.0);
+  const WorldPoint nearest = {a[0] + part * axis[0], a[1] + part * axis[1], a[2] + part * axis[2]};
+  return DistanceBetween(p, nearest) - (at_a + part * (at_b - at_a));
+}
+
+// Of two distances, to the solid in which a fillet joins the two.
+double Joined(double a, double b, double fillet) {
+  const double h = std::max(fillet - std::abs(a - b), 0.0) / fillet;
+  return std::min(a, b) - h * h * fillet / 4;
+}
+
+// The way to the toes leads aside from that of the leg.
+TEST(LastParts, FeetKeepTheirCurves) {
+  constexpr int32_t kCells = 90;
+  for (const double radius : {6.0, 12.0}) {
+    for (const double length : {2.0, 2.5, 3.0}) {  // radii
+      const WorldPoint hip = {-80, 0, 0}, ankle = {20, 0, 0}, toe = {20, length * radius, 0};
+      const auto leg = [&](const WorldPoint& p) {
+        return std::min(ToLimb(p, hip, radius, ankle, radius),
+                        ToLimb(p, ankle, radius, toe, radius)) <= 0;
+      };
+      for (const double turn : {0.0, 0.3, 0.8}) {
+        const auto result = Skeletonize(test::Sampled(leg, kCells, turn), {}, {});
+        ASSERT_TRUE(result.ok()) << result.status();
+        EXPECT_LT(GapAt(toe, result->graph, kCells, turn), 0.4 * radius + 2)
+            << radius << ' ' << length << ' ' << turn;
+        EXPECT_EQ(result->graph.nodes.size(), 2u);
+      }
+    }
+  }
+}
+
+// The head is thicker than any other part of the limb, which begins with the neck.
+TEST(LastParts, BeaksKeepTheirCurves) {
+  constexpr int32_t kCells = 90;
+  constexpr double kHead = 17, kPoint = 1.5;
+  for (const double length : {1.0, 1.3}) {  // beyond the head, in its radii
+    const WorldPoint center = {0, 0, 0}, body = {-2.5 * kHead, 0, -4.375 * kHead},
+                     throat = {kHead / 2, 0, 0};
+    const WorldPoint tip = {kHead * (1 + length) - kPoint, 0, 0};
+    const auto bird = [&](const WorldPoint& p) {
+      const double neck = ToLimb(p, center, 0.75 * kHead, body, 1.2 * kHead);
+      const double head = Joined(neck, ToLimb(p, center, kHead, center, kHead), 0.125 * kHead);
+      return Joined(head, ToLimb(p, throat, 0.45 * kHead, tip, kPoint), 0.125 * kHead) <= 0;
+    };
+    for (const double turn : {0.0, 0.4, 1.0, 1.6, 2.8}) {
+      const auto result = Skeletonize(test::Sampled(bird, kCells, turn), {}, {});
+      ASSERT_TRUE(result.ok()) << result.status();
+      EXPECT_LT(GapAt(tip, result->graph, kCells, turn), kHead / 2) << length << ' ' << turn;
+    }
+  }
+}
+
+// The way into a tooth comes through a disk, which is wider than any limb.
+TEST(LastParts, TeethOfADiskKeepTheirCurves) {
+  constexpr int32_t kCells = 110, kTeeth = 8;
+  constexpr double kDisk = 72, kHalfThickness = 9, kTooth = 27;  // wide and high
+  const auto gear = [&](const WorldPoint& p) {
+    if (std::abs(p[2]) > kHalfThickness) return false;
+    if (std::hypot(p[0], p[1]) <= kDisk) return true;
+    for (int n = 0; n < kTeeth; ++n) {
+      const double angle = 2 * std::numbers::pi * n / kTeeth;
+      const double out = p[0] * std::cos(angle) + p[1] * std::sin(angle);
+      const double aside = p[1] * std::cos(angle) - p[0] * std::sin(angle);
+      if (out > 0 && out <= kDisk + kTooth && std::abs(aside) <= kTooth / 2) return true;
+    }
+    return false;
+  };
+  for (const double turn : {0.22, 3.18}) {
+    const auto result = Skeletonize(test::Sampled(gear, kCells, turn), {}, {});
+    ASSERT_TRUE(result.ok()) << result.status();
+    for (int n = 0; n < kTeeth; ++n) {
+      const double angle = 2 * std::numbers::pi * n / kTeeth, out = kDisk + kTooth / 2;
+      const WorldPoint tooth = {out * std::cos(angle), out * std::sin(angle), 0};
+      EXPECT_LT(GapAt(tooth, result->graph, kCells, turn), 0.6 * kTooth) << turn << ' ' << n;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace bccskel
