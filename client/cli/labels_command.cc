@@ -2,8 +2,10 @@
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
+#include <iterator>
 #include <memory>
 #include <optional>
+#include <set>
 #include <stop_token>
 #include <string>
 #include <utility>
@@ -12,6 +14,7 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "absl/strings/str_format.h"
+#include "absl/strings/str_join.h"
 #include "client/cli/arguments.h"
 #include "client/cli/common_options.h"
 #include "client/cli/console.h"
@@ -268,6 +271,22 @@ absl::Status NoLabels(const LabelsArguments& arguments, uint64_t left_out) {
       exporting::Counted(left_out, "label has", "labels have")));
 }
 
+// Labels left out by their size are stated in the summary. Of a range not all need be there.
+void WarnOfAbsent(const LabelsArguments& arguments, const CollectedLabels& labels) {
+  constexpr size_t kShown = 10;
+  const std::set<uint64_t> wanted(arguments.image.labels.begin(), arguments.image.labels.end());
+  std::set<uint64_t> absent;
+  for (const uint64_t label : wanted) {
+    if (!wanted.contains(label - 1) && !wanted.contains(label + 1)) absent.insert(label);
+  }
+  for (const LabeledObject& object : labels.objects.objects) absent.erase(object.label);
+  if (absent.empty() || labels.left_out > 0) return;
+  const auto end =
+      std::next(absent.begin(), static_cast<ptrdiff_t>(std::min(kShown, absent.size())));
+  Warn(arguments.input + ": no voxel has the label " + absl::StrJoin(absent.begin(), end, ", ") +
+       (absent.size() > kShown ? ", ..." : ""));
+}
+
 absl::StatusOr<CollectedLabels> Load(const LabelsArguments& arguments,
                                      const exec::Context& context) {
   absl::StatusOr<CollectedLabels> labels = Collect(arguments, context);
@@ -276,6 +295,7 @@ absl::StatusOr<CollectedLabels> Load(const LabelsArguments& arguments,
   if (labels->objects.objects.empty()) {
     return WithPath(NoLabels(arguments, labels->left_out), arguments.input);
   }
+  WarnOfAbsent(arguments, *labels);
   return labels;
 }
 

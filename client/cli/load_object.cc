@@ -7,6 +7,7 @@
 #include <iterator>
 #include <limits>
 #include <set>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <variant>
@@ -42,6 +43,10 @@ struct Range {
 using LatticeBox = std::array<Range, 3>;
 
 // Needs: at least one point.
+constexpr std::string_view kOtherObject =
+    "is not what the result was made from, or was read with other options (those that select the "
+    "object and its grid, such as --threshold, --voxel-size or --spacing, are needed again)";
+
 LatticeBox BoxOf(const Volume& object) {
   constexpr Range kNone = {2.0 * kMaxExtentCells, -1};
   LatticeBox box = {kNone, kNone, kNone};
@@ -66,10 +71,9 @@ absl::Status CheckBoxes(const view::ResultDocument& result, const Volume& object
       const double radius = result.border_continues ? 0 : ball.radius;
       if (radius / unit - inside <= slack) continue;
       return absl::InvalidArgumentError(
-          absl::StrFormat("is not what the result was made from: the result's object reaches %.4g "
-                          "beyond this one's "
-                          "box along the axis %c of its grid",
-                          radius - inside * unit, "xyz"[axis]));
+          absl::StrFormat("%s: the result's object reaches %.4g beyond this one's box along the "
+                          "axis %c of its grid",
+                          kOtherObject, radius - inside * unit, "xyz"[axis]));
     }
   }
   return absl::OkStatus();
@@ -86,8 +90,7 @@ absl::Status CheckVolumes(const view::ResultDocument& result, const Volume& obje
   const double there = VolumeOf(result.object_points, *result.placement);
   if (std::max(here, there) <= kMostVolumes * std::min(here, there)) return absl::OkStatus();
   return absl::InvalidArgumentError(absl::StrFormat(
-      "is not what the result was made from: its volume is %.4g, that of the result's object %.4g",
-      here, there));
+      "%s: its volume is %.4g, that of the result's object %.4g", kOtherObject, here, there));
 }
 
 }  // namespace
@@ -96,7 +99,7 @@ absl::Status CheckObjectFits(const view::ResultDocument& result, const Volume& o
   if (object.empty() && result.object_points == 0) return absl::OkStatus();
   if (object.empty()) {
     return absl::InvalidArgumentError(
-        "is not what the result was made from: it has no point on the result's grid");
+        absl::StrFormat("%s: it has no point on the result's grid", kOtherObject));
   }
   BCCSKEL_RETURN_IF_ERROR(CheckBoxes(result, object));
   return CheckVolumes(result, object);

@@ -178,6 +178,12 @@ class LabelsTest(harness.TestCase):
         image = json.loads(done.stdout)["image"]
         self.assertEqual(image["values"], {"low": -0.1, "high": 7, "not_numbers": 1})
 
+    def test_a_label_without_voxels_beside_others_is_told(self):
+        numpy.save(self.image, numpy.full((4, 4, 4), 7, "u1"))
+        words = ("labels", self.image, "--local", "-o", self.path("a.csv"), "--labels")
+        self.assertIn("no voxel has the label 9, 70\n", harness.bccskel(*words, "7,70,9").stderr)
+        self.assertNotIn("no voxel", harness.bccskel(*words, "7-9").stderr)
+
     def test_wrong_wishes_are_told(self):
         for words, code, message in (
                 (("-o", self.path("a.swc")), 2, "{label}"),

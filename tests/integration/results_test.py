@@ -137,7 +137,7 @@ class ResultsTest(harness.TestCase):
             "OFF\n4 4 0\n0 0 0\n1e-3 0 0\n0 1e-3 0\n0 0 1e-3\n"
             "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n")
         others = [(self.path("box.off"), "box along the axis"),  # elsewhere
-                  (self.path("thin.off"), "is not what the result was made from: it has no point"),
+                  (self.path("thin.off"), "it has no point on the result's grid"),
                   (self.generate("ball", 5000, "small.bccb"), "is not what"),
                   (self.generate("ball", 5000000, "large.bccb"), "its volume is")]
         for other, why in others:

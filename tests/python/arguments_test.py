@@ -47,12 +47,29 @@ class ArgumentsTest(harness.TestCase):
         refuse("direction must be 3 perpendicular unit vectors, shape (3, 3)",
                direction=2 * numpy.eye(3))
 
+    def test_labels_without_voxels_are_told(self):
+        image = MASK.astype("u1") * 7
+        with self.assertWarnsRegex(UserWarning, "^labels without voxels: 9, 70$"):
+            self.assertEqual(list(bccskel.skeletonize_labels(image, labels=[7, 9, 70])), [7])
+
+    def test_images_of_nibabel_are_told_apart(self):
+        class Nifti:
+            dataobj = MASK
+        with self.assertRaisesRegex(TypeError, r"np.asarray\(mask.dataobj\) is its array, of axes='xyz'"):
+            bccskel.skeletonize(Nifti())
+
     def test_options(self):
         refuse = lambda error, message, **options: self.refuse(
             error, message, bccskel.skeletonize, MASK, **options)
         refuse(TypeError, "skeletonize() got an unexpected keyword argument 'prunning'. "
                "Did you mean 'pruning'?", prunning="none")
         refuse(TypeError, "skeletonize() got an unexpected keyword argument 'output'", output="a")
+        for other, ours in (("voxel_size", "spacing"), ("dust_threshold", "min_component")):
+            refuse(TypeError, f"skeletonize() got an unexpected keyword argument {other!r}. "
+                   f"Did you mean {ours!r}?", **{other: 3})
+        self.refuse(TypeError, "skeletonize_labels() got an unexpected keyword argument "
+                    "'dust_threshold'. Did you mean 'min_voxels'?",
+                    bccskel.skeletonize_labels, MASK, dust_threshold=3)
         refuse(ValueError, "pruning all: must be significance, length, relative-length, "
                "persistence or none", pruning="all")
         refuse(ValueError, "pruning_threshold is for a rule of pruning, not for pruning none",

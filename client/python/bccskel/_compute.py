@@ -90,6 +90,13 @@ def _labels(server: Any, image: Any, spacing: Any, origin: Any, direction: Any, 
     except ValueError:
         check_labels(array)  # names the voxel in the order of these axes
         raise
+    wanted = np.ravel(options.get("labels"))
+    absent = [label for label in wanted if isinstance(label, (int, np.integer))
+              and int(label) not in outcomes]
+    if absent:
+        fewer = " or fewer than min_voxels" if options.get("min_voxels") else ""
+        names = ", ".join(map(str, absent[:10])) + (", ..." if len(absent) > 10 else "")
+        warnings.warn(f"labels without voxels{fewer}: {names}", stacklevel=3)
     return {label: Skeleton(outcome, frame, title=f"label {label}", voxels=True, label=label,
                             image=image)
             for label, outcome in outcomes.items()}

@@ -130,6 +130,9 @@ def voxels_of(array: Any, name: str) -> np.ndarray:
     type is another."""
     if isinstance(array, (str, os.PathLike)):
         raise TypeError(f"{name} must be an array, got a path: read({str(array)!r}) reads the file")
+    if hasattr(array, "dataobj"):
+        raise TypeError(f"{name} must be an array, got an image of nibabel: np.asarray({name}.dataobj)"
+                        " is its array, of axes='xyz'; read(path) also reads its place in the world")
     if isinstance(array, np.ma.MaskedArray):
         array = array.filled(0)
     array = np.asarray(array)

@@ -13,6 +13,12 @@ from . import _native
 _PLACES = ("root", "voxel_size", "raw_size")
 """Options of three numbers that go with the axes."""
 
+_OTHER_NAMES = {"voxel_size": "spacing", "anisotropy": "spacing", "resolution": "spacing",
+                "dust_threshold": "min_component", "min_size": "min_component"}
+"""Names that users of other programs and of the command line expect."""
+
+_OF_LABELS = {"min_component": "min_voxels"}
+
 
 def texts_of(function: str, kind: str, options: dict, to_xyz: list) -> list:
     """(name, text) for each option that is not None; no text for a flag."""
@@ -20,8 +26,12 @@ def texts_of(function: str, kind: str, options: dict, to_xyz: list) -> list:
     texts = []
     for name, value in options.items():
         if name not in names:
-            near = difflib.get_close_matches(name, names, 1)
-            hint = f". Did you mean {near[0]!r}?" if near else ""
+            near = _OTHER_NAMES.get(name)
+            if near is None:
+                near = next(iter(difflib.get_close_matches(name, names, 1, 0.7)), None)
+            elif kind == "labels":
+                near = _OF_LABELS.get(near, near)
+            hint = f". Did you mean {near!r}?" if near else ""
             raise TypeError(f"{function}() got an unexpected keyword argument {name!r}{hint}")
         if value is None:
             continue

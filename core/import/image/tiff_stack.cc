@@ -207,7 +207,9 @@ absl::StatusOr<TiffStack> ShapedStack(std::string_view json, int64_t pages,
   }
   if (pages == 1 && !axes.empty()) {
     return absl::UnimplementedError(
-        "a stack behind one page, as tifffile writes with truncate=True, is not supported");
+        "the description names more pages than the one there is: the file is cut, or a stack "
+        "behind "
+        "one page, as tifffile writes with truncate=True, which is not supported");
   }
   return Select({axes.rbegin(), axes.rend()}, pages, options);
 }
