@@ -20,7 +20,7 @@ absl::Status CellCollector::AddPoints(const DataArray& values) {
   return absl::OkStatus();
 }
 
-absl::Status CellCollector::AddCell(CellShape shape, const DataArray& corners, size_t begin,
+absl::Status CellCollector::AddCell(FaceShape shape, const DataArray& corners, size_t begin,
                                     size_t end) {
   corners_.clear();
   for (size_t n = begin; n < end; ++n) {
@@ -31,10 +31,10 @@ absl::Status CellCollector::AddCell(CellShape shape, const DataArray& corners, s
     }
     corners_.push_back(static_cast<int64_t>(first_) + static_cast<int64_t>(corner));
   }
-  return shape == CellShape::kStrip ? mesh_.AddStrip(corners_) : mesh_.AddPolygon(corners_);
+  return shape == FaceShape::kStrip ? mesh_.AddStrip(corners_) : mesh_.AddPolygon(corners_);
 }
 
-absl::Status CellCollector::AddCells(CellShape shape, const DataArray& ends,
+absl::Status CellCollector::AddCells(FaceShape shape, const DataArray& ends,
                                      const DataArray& corners) {
   size_t begin = 0;
   for (size_t n = 0; n < ends.size(); ++n) {

@@ -12,7 +12,7 @@
 
 namespace bccskel {
 
-enum class CellShape { kPolygon, kStrip };
+enum class FaceShape { kPolygon, kStrip };
 
 // Adds points and cells over them, as VTK and GIFTI store both, to a mesh.
 class CellCollector {
@@ -25,10 +25,10 @@ class CellCollector {
   absl::Status AddPoints(const DataArray& values);
   // The cell with these corners.
   // Errors: INVALID_ARGUMENT for a corner that is none of the points.
-  absl::Status AddCell(CellShape shape, const DataArray& corners, size_t begin, size_t end);
+  absl::Status AddCell(FaceShape shape, const DataArray& corners, size_t begin, size_t end);
   // Cells one behind the other; ends[n] is behind the last corner of cell n.
   // Errors: INVALID_ARGUMENT for ends that go back or do not end with the corners.
-  absl::Status AddCells(CellShape shape, const DataArray& ends, const DataArray& corners);
+  absl::Status AddCells(FaceShape shape, const DataArray& ends, const DataArray& corners);
 
  private:
   std::string_view format_;

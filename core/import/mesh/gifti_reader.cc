@@ -132,7 +132,7 @@ absl::StatusOr<TriangleMesh> ParseGifti(std::string_view bytes, const MeshLimits
   CellCollector collector("GIFTI", mesh);
   BCCSKEL_RETURN_IF_ERROR(collector.AddPoints(points));
   for (size_t n = 0; n < corners.size(); n += 3) {
-    BCCSKEL_RETURN_IF_ERROR(collector.AddCell(CellShape::kPolygon, corners, n, n + 3));
+    BCCSKEL_RETURN_IF_ERROR(collector.AddCell(FaceShape::kPolygon, corners, n, n + 3));
   }
   return std::move(mesh).Finish();
 }

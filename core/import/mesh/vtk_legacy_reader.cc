@@ -72,8 +72,8 @@ class VtkLegacyReader {
   absl::Status ReadSection(std::string_view keyword) {
     const auto is = [&](std::string_view name) { return EqualsIgnoringCase(keyword, name); };
     if (is("POINTS")) return ReadPoints();
-    if (is("POLYGONS")) return ReadCells(CellShape::kPolygon);
-    if (is("TRIANGLE_STRIPS")) return ReadCells(CellShape::kStrip);
+    if (is("POLYGONS")) return ReadCells(FaceShape::kPolygon);
+    if (is("TRIANGLE_STRIPS")) return ReadCells(FaceShape::kStrip);
     if (is("VERTICES") || is("LINES")) return ReadCells(std::nullopt);
     if (is("FIELD")) return SkipFields();
     if (is("METADATA")) return SkipMetadata();
@@ -90,7 +90,7 @@ class VtkLegacyReader {
   }
 
   // Without a shape, cells are only stepped over.
-  absl::Status ReadCells(std::optional<CellShape> shape) {
+  absl::Status ReadCells(std::optional<FaceShape> shape) {
     BCCSKEL_ASSIGN_OR_RETURN(const uint64_t count, text_.Count(text_.Word()));
     BCCSKEL_ASSIGN_OR_RETURN(const uint64_t size, text_.Count(text_.Word()));
     const bool with_offsets = major_version_ >= 5;
@@ -100,7 +100,7 @@ class VtkLegacyReader {
     return shape ? AddCountedCells(*shape, count, numbers) : absl::OkStatus();
   }
 
-  absl::Status ReadOffsetCells(std::optional<CellShape> shape, uint64_t offsets, uint64_t corners) {
+  absl::Status ReadOffsetCells(std::optional<FaceShape> shape, uint64_t offsets, uint64_t corners) {
     BCCSKEL_ASSIGN_OR_RETURN(const DataArray ends, ReadNamed("OFFSETS", offsets));
     if (offsets == 0) return absl::OkStatus();
     BCCSKEL_ASSIGN_OR_RETURN(const DataArray named, ReadNamed("CONNECTIVITY", corners));
@@ -114,7 +114,7 @@ class VtkLegacyReader {
     return text_.Values(count, text_.Word());
   }
 
-  absl::Status AddCountedCells(CellShape shape, uint64_t count, const DataArray& numbers) {
+  absl::Status AddCountedCells(FaceShape shape, uint64_t count, const DataArray& numbers) {
     size_t at = 0;
     for (uint64_t n = 0; n < count; ++n) {
       const double left = static_cast<double>(numbers.size()) - static_cast<double>(at) - 1;

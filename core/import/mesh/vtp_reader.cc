@@ -31,7 +31,7 @@ VtpParts SplitAppended(std::string_view bytes) {
           marked ? bytes.substr(mark + 1) : std::string_view()};
 }
 
-absl::Status ReadVtpCells(const pugi::xml_node& cells, CellShape shape, VtpArrayReader& arrays,
+absl::Status ReadVtpCells(const pugi::xml_node& cells, FaceShape shape, VtpArrayReader& arrays,
                           CellCollector& collector) {
   const pugi::xml_node ends = cells.find_child_by_attribute("DataArray", "Name", "offsets");
   const pugi::xml_node corners = cells.find_child_by_attribute("DataArray", "Name", "connectivity");
@@ -65,8 +65,8 @@ absl::Status ReadVtpPiece(const pugi::xml_node& piece, VtpArrayReader& arrays,
                           CellCollector& collector) {
   BCCSKEL_RETURN_IF_ERROR(ReadVtpPoints(piece, arrays, collector));
   BCCSKEL_RETURN_IF_ERROR(
-      ReadVtpCells(piece.child("Polys"), CellShape::kPolygon, arrays, collector));
-  return ReadVtpCells(piece.child("Strips"), CellShape::kStrip, arrays, collector);
+      ReadVtpCells(piece.child("Polys"), FaceShape::kPolygon, arrays, collector));
+  return ReadVtpCells(piece.child("Strips"), FaceShape::kStrip, arrays, collector);
 }
 
 absl::StatusOr<pugi::xml_node> PolyDataOf(const pugi::xml_node& file) {
