@@ -5,6 +5,7 @@
 #include <numbers>
 #include <span>
 
+#include "core/distance/places.h"
 #include "core/exec/disjoint_sets.h"
 #include "core/skeleton/curve_smoothing.h"
 
@@ -15,11 +16,6 @@ double LengthOfCurve(std::span<const WorldPoint> curve) {
   double length = 0;
   for (size_t n = 1; n < curve.size(); ++n) length += DistanceBetween(curve[n - 1], curve[n]);
   return length;
-}
-
-Coordinates LatticePlaceOf(const SkeletonPoint& p) {
-  return {static_cast<double>(p.point.x), static_cast<double>(p.point.y),
-          static_cast<double>(p.point.z)};
 }
 
 // How much of a way from p, in lattice units, stays within half the radius of p or within its cell.
@@ -54,7 +50,7 @@ std::vector<WorldPoint> SmoothCurve(const SkeletonGraph& graph, const SkeletonEd
   const std::span<const SkeletonPoint> points = graph.PointsOf(edge);
   std::vector<Coordinates> middles;
   for (const SkeletonPoint& p : points) {
-    Coordinates& middle = middles.emplace_back(LatticePlaceOf(p));
+    Coordinates& middle = middles.emplace_back(PlaceOf(p.point, kIsotropic));
     for (size_t axis = 0; axis < 3; ++axis) {
       middle[axis] += p.shift[axis] / static_cast<double>(kShiftUnits);
     }
@@ -62,7 +58,7 @@ std::vector<WorldPoint> SmoothCurve(const SkeletonGraph& graph, const SkeletonEd
   const std::vector<Coordinates> means = MeansAlong(middles, ShapeOf(graph, edge));
   std::vector<WorldPoint> curve;
   for (size_t n = 0; n < points.size(); ++n) {
-    const Coordinates from = LatticePlaceOf(points[n]), way = Sum(means[n], -1, from);
+    const Coordinates from = PlaceOf(points[n].point, kIsotropic), way = Sum(means[n], -1, from);
     const double share = ShareInside(graph, points[n], way);
     const Coordinates at = share < 1 ? Sum(from, share, way) : means[n];
     curve.push_back(graph.placement.ToWorld(at[0], at[1], at[2]));
