@@ -149,7 +149,9 @@ WayOn WayOnFrom(const ThinSet& set, double step, LatticePoint anchor,
   size_t n = path.size() - 1;
   while (n > 0 && set.Between(path[n], end) < back) --n;
   const LatticePoint before = n > 0 ? path[n] : anchor;
-  return before == end ? WayOn() : StraightOn(set.Way(before, end), radius);
+  const bool too_near =
+      set.Between(before, end) < std::max(kLeastWayRadii * radius, kLeastAim * step);
+  return too_near ? WayOn() : StraightOn(set.Way(before, end), radius);
 }
 
 }  // namespace bccskel

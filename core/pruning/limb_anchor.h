@@ -14,6 +14,9 @@
 
 namespace bccskel {
 
+// A limb shows its way if it is so many radii long.
+inline constexpr double kLeastWayRadii = 0.5;
+
 // Placing a tip removes at most a path into a cap or a corner: so many radii plus lattice units.
 // The corners of a bar with three equal sides are sqrt(5) radii away.
 inline constexpr double kCutRadii = 2.3;
@@ -55,7 +58,7 @@ struct WayOn {
 // length but 0.
 WayOn StraightOn(const Coordinates& way, double radius);
 // As the last two radii of the path lead, at least four steps; the way from the anchor if the path
-// is shorter.
+// is shorter. Without a penalty if that is less than half the radius or four steps.
 // Shapes: `path` comes from `anchor`, which is not part of it, and ends where the ridge ends;
 //         `step` as above.
 WayOn WayOnFrom(const ThinSet& set, double step, LatticePoint anchor,

@@ -11,6 +11,7 @@
 #include "core/exec/status_macros.h"
 #include "core/exec/stop_poll.h"
 #include "core/pruning/branch_pruner.h"
+#include "core/pruning/grow_body_ends.h"
 #include "core/pruning/pruning_defaults.h"
 #include "core/pruning/pruning_levels.h"
 #include "core/pruning/simple_points.h"
@@ -163,6 +164,10 @@ absl::StatusOr<ThinSkeleton> Prune(const ThinSkeleton& curves, const PrunedObjec
     turned.DropFrom(threshold);
     if (by_shape) {
       CollapsePaths(set, significance, threshold, kept);
+      if (options.tips == TipPlacement::kRidge) {
+        FirmDepth depth(space, in_space);
+        GrowBodyEnds(set, in.object, in.radius, depth, significance, threshold, context);
+      }
     }
     if (absl::Status stop = context.StopStatus(); !stop.ok()) return stop;
   }

@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "core/pruning/junction_ball.h"
+
 namespace bccskel {
 namespace {
 
@@ -21,6 +23,7 @@ constexpr size_t kNearTip = 9;          // of the places
 constexpr double kLongestRay = 400;
 constexpr double kBulge = 1.2;       // its radius at the end, in radii where its branch begins
 constexpr double kInJunction = 0.9;  // of the ball there
+constexpr double kLeastBall = 2.5;   // radius, in noise: of a body whose end may count
 constexpr size_t kCoverSamples = 16;
 
 BranchPath PathOf(const ThinSet& set, const FreeBranch& branch) {
@@ -76,8 +79,48 @@ double Significance::Of(const ThinSet& set, const FreeBranch& branch) {
     verdicts_.Set(branch.points[0], Look(set, branch));
     last = verdicts_.Find(branch.points[0]);
   }
-  if (last->value < kLeastRatio) return last->value;
-  return last->value * UncoveredShare(set, branch, last->run);
+  double value = last->value;
+  if (value >= kLeastRatio) value *= UncoveredShare(set, branch, last->run);
+  return value < kSureRatio ? std::max(value, OfBodyEnd(set, branch, value)) : value;
+}
+
+// A body that narrows falls short of a run: its radius falls twice as fast as along a limb. Limbs
+// that leave it show that its end is not just a corner, of which several would meet.
+double Significance::OfBodyEnd(const ThinSet& set, const FreeBranch& branch, double least) {
+  constexpr double kNone = -std::numeric_limits<double>::infinity();
+  const LatticePoint junction = *branch.junction;
+  const double radius = set.RadiusOf(junction);
+  if (!MayHaveBodyEnds(radius) || !IsBodyEnd(set, branch)) return kNone;
+  BranchPath path = PathOf(set, branch);
+  if (extender_.has_value()) extender_->Append(path);
+  double farthest = 0;
+  LatticePoint tip = junction;
+  for (size_t n = 0; n < path.points.size(); ++n) {
+    const double out = set.Between(junction, path.points[n]) + path.radii[n] - radius;
+    if (out > farthest) farthest = out, tip = path.points[n];
+  }
+  if (farthest == 0) return kNone;
+  const double out = BeyondNoise(farthest, radius, set.Way(junction, tip));
+  if (out / radius <= least) return kNone;
+  const size_t middle = branch.points.size() / 2;
+  const LatticePoint p = branch.points[middle];
+  CrossSection section = sections_.Across(
+      PlaceOf(p, scale_), DirectionAt(branch.points, middle, scale_), set.RadiusOf(p), kLongestRay);
+  sections_.Refine(kLongestRay, section);
+  const Run outer_half = {.from = middle, .to = branch.points.size()};
+  return out / (radius + kWidthShare * WiderThanThick(section)) *
+         UncoveredShare(set, branch, outer_half);
+}
+
+bool Significance::MayHaveBodyEnds(double radius) const {
+  return radius >= kLeastBall * (noise_.At(radius) + kNoiseMargin);
+}
+
+bool Significance::IsCovered(const ThinSet& set, std::span<const LatticePoint> path,
+                             LatticePoint next) {
+  if (!balls_.has_value()) balls_.emplace(set, scale_);
+  balls_->SetOwn(path);
+  return balls_->IsCovered(next, set.Between(next, path.front()), set);
 }
 
 double Significance::OfPath(const ThinSet& set, std::array<BranchPath, 2> ways) const {

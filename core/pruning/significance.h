@@ -36,6 +36,8 @@ namespace bccskel {
 //        and so on, and so is the best run before it; the largest result counts.
 // The significance is a ratio of lengths of the shape. Only the noise depends on the sampling, so
 // it is the same at any resolution and in any pose.
+//        The end of a body that thin limbs leave before it has a significance of its own
+//        (OfBodyEnd()), if that is larger.
 // Cost:  48 points of the branch for each of one to several runs. For a run that may be the best,
 // 176
 //        rays if it sticks out at all, up to 396 if the branch may stay and is not round, and in a
@@ -60,6 +62,17 @@ class Significance {
   // Needs: the branch belongs to `set`, whose points are points of the object, and has a junction.
   //        All calls pass the same set; its points may be removed, but their radii never change.
   double Of(const ThinSet& set, const FreeBranch& branch);
+  // The significance of a branch as the end of a body (IsBodyEnd()), which Of() does not fall
+  // below: how far it sticks out of the ball at its junction, relative to that ball's radius and
+  // the width, as above. -infinity if it is none, or the ball is too small. Not exact if it is at
+  // most `least`. Needs: as Of().
+  double OfBodyEnd(const ThinSet& set, const FreeBranch& branch,
+                   double least = -std::numeric_limits<double>::infinity());
+  // Whether a ball of this radius at a junction is large enough, compared with the noise.
+  bool MayHaveBodyEnds(double radius) const;
+  // Whether the next point of a path lies in the ball of a branch other than those at the junction
+  // from which the path comes (BallIndex). Needs: the path begins with the junction.
+  bool IsCovered(const ThinSet& set, std::span<const LatticePoint> path, LatticePoint next);
   // The significance of a path with two ends: how far its two halves stick out of the ball at the
   // deepest point, minus one step of the surface, in radii of that ball. The width does not count,
   // since a flat object has a curve. `ways`: both from the deepest point to an end.

@@ -13,6 +13,12 @@
 
 namespace bccskel {
 
+// A tip's merit is its depth plus this share of its distance along the limb. Toward a box's corner
+// or the end of a round cap the depth falls by 1 per unit, toward the tip of a pointed limb by
+// less.
+inline constexpr double kTipSlope = 0.75;
+inline constexpr double kTipPatience = 4;  // how far below the best a growing tip may fall
+
 // Finds the points by which a limb grows at its tip.
 // Needs:   `set`, `object` and `depth`, which belongs to the object, outlive this.
 // Threads: one thread per instance.

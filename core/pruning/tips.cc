@@ -21,9 +21,6 @@
 namespace bccskel {
 namespace {
 
-// Weight of the distance along the limb in a tip's merit. Toward a box's corner or the end of a
-// round cap the radius falls by 1 per unit, toward the tip of a pointed limb by less.
-constexpr double kSlope = 0.75;
 constexpr double kGainBySteps = 0.42;  // a tip farther out is better by so many surface steps
 constexpr double kGainByNoise = 0.06;  // and this share of the noise allowance, or noise made it
 constexpr double kAimRadii = 1.75;     // as kCutRadii, for the point that shows the direction
@@ -38,7 +35,6 @@ constexpr double kOffArcAtRoot = kOffArc / 2;  // where the arc begins with the 
 constexpr double kTurnRadii = 0.75;
 constexpr double kTurnMargin = 2;
 constexpr double kLimbAfterFlat = 0.95;  // least significance; corners of strips reach 0.9
-constexpr double kPatience = 4;          // how far below the best a growing tip may fall
 constexpr int kMajority = 7;             // of 14 neighbors, with the point itself
 constexpr int kThinner = 3;              // in thin limbs: so many fewer than their points have
 
@@ -161,16 +157,16 @@ class TipPlacer {
 
   double Aside(LatticePoint p) const { return way_on_.Aside(set_.Way(ridge_end_, p)); }
 
-  double Merit(LatticePoint p, double slope = kSlope) {
+  double Merit(LatticePoint p, double slope = kTipSlope) {
     return slope * Along(p) - Aside(p) + depth_.At(p);
   }
   // An upper bound of Merit(), also in floating point, where sums and products are monotonic.
-  double MeritAtMost(LatticePoint p, double slope = kSlope) const {
+  double MeritAtMost(LatticePoint p, double slope = kTipSlope) const {
     return slope * Along(p) - Aside(p) + depth_.AtMost(p);
   }
 
   // Position in the path of the point with the largest merit, on ties the farthest.
-  size_t BestFrom(size_t first, double slope = kSlope) {
+  size_t BestFrom(size_t first, double slope = kTipSlope) {
     size_t best = path_.size() - 1;
     double most = Merit(path_[best], slope);
     for (size_t n = best; n-- > first;) {
@@ -270,12 +266,20 @@ class TipPlacer {
     return way <= radii * set_.RadiusOf(p) + kCutMargin || way <= radii * depth_.At(p) + kCutMargin;
   }
 
+  // Position in the path, at least `n`, of a point from which the way ahead is known.
+  size_t FirstThatShowsWay(size_t n) const {
+    const double least = kLeastWayRadii * set_.RadiusOf(path_[n]);
+    while (n + 1 < path_.size() && set_.Between(anchor_, path_[n]) < least) ++n;
+    return n;
+  }
+
   // Thinning may leave the ridge before the limb ends, so the path is grown again from the last
   // point that is certainly on the ridge. Single points do not grow. Returns the position in the
   // path of the first point that may become the tip.
   size_t GrowAnew(size_t first) {
     if (!IsFirm(path_.back())) return first;
-    const size_t straight = BestFrom(first, kRidgeSlope), ridge_end = RidgeEndFrom(first);
+    const size_t straight = FirstThatShowsWay(BestFrom(first, kRidgeSlope));
+    const size_t ridge_end = RidgeEndFrom(first);
     const bool turns = set_.Between(path_[straight], path_[ridge_end]) >
                        kTurnRadii * set_.RadiusOf(path_[ridge_end]) + kTurnMargin;
     CutAfter(turns ? ridge_end : straight);
@@ -315,7 +319,7 @@ class TipPlacer {
       if (!IsFirm(*next) || set_.Between(*next, start) > longest || IsInBallOfAnother(*next)) break;
       Append(*next);
       const double merit = Merit(*next);
-      if (merit < best - kPatience) break;
+      if (merit < best - kTipPatience) break;
       best = std::max(best, merit);
     }
   }

@@ -1,11 +1,9 @@
 // Limbs whose last part thinning reaches: feet, beaks and teeth keep their curves.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <numbers>
 
 #include "core/pipeline/skeletonize.h"
@@ -14,37 +12,9 @@
 namespace bccskel {
 namespace {
 
-// The distance from a place of the solid to the nearest end of its skeleton, in lattice units.
-double GapAt(const WorldPoint& place, const SkeletonGraph& graph, int32_t cells, double turn) {
-  double gap = std::numeric_limits<double>::infinity();
-  for (const SkeletonNode& node : graph.nodes) {
-    if (node.kind != NodeKind::kEnd) continue;
-    gap = std::min(gap, DistanceBetween(place, test::InFrame(node.at.point, cells, turn)));
-  }
-  return gap;
-}
-
-// The distance to the surface of a limb whose radius changes from `at_a` to `at_b`, less inside.
-double ToLimb(const WorldPoint& p, const WorldPoint& a, double at_a, const WorldPoint& b,
-              double at_b) {
-  WorldPoint axis, way;
-  double square = 0, along = 0;
-  for (size_t n = 0; n < 3; ++n) {
-    axis[n] = b[n] - a[n];
-    way[n] = p[n] - a[n];
-    square += axis[n] * axis[n];
-    along += axis[n] * way[n];
-  }
-  const double part = square == 0 ? 0 : std::clamp(along / square, 0.0, 1.0);
-  const WorldPoint nearest = {a[0] + part * axis[0], a[1] + part * axis[1], a[2] + part * axis[2]};
-  return DistanceBetween(p, nearest) - (at_a + part * (at_b - at_a));
-}
-
-// Of two distances, to the solid in which a fillet joins the two.
-double Joined(double a, double b, double fillet) {
-  const double h = std::max(fillet - std::abs(a - b), 0.0) / fillet;
-  return std::min(a, b) - h * h * fillet / 4;
-}
+using test::GapAt;
+using test::Joined;
+using test::ToLimb;
 
 // The way to the toes leads aside from that of the leg.
 TEST(LastParts, FeetKeepTheirCurves) {

@@ -1,0 +1,164 @@
+#include "core/pruning/grow_body_ends.h"
+
+#include <algorithm>
+#include <functional>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/distance/places.h"
+#include "core/pruning/branch_walk.h"
+#include "core/pruning/junction_ball.h"
+#include "core/pruning/tip_steps.h"
+
+namespace bccskel {
+namespace {
+
+constexpr double kStart = 0.4;           // of the ball's radius: a body's end begins no farther off
+constexpr size_t kMostStarts = 16;       // points from which it may begin
+constexpr double kGrowth = 2.5;          // of the ball's radius, plus
+constexpr double kGrowthUnits = 6;       // so many: the longest end
+constexpr double kOnTheWay = 0.9;        // cosine: a limb that leads straight on continues the body
+constexpr double kBeside = 0.5;          // cosine: a limb in this cone must be
+constexpr double kThinnerBeside = 0.75;  // than the end
+constexpr double kStraight = 0.75;       // least cosine of the end at its exit
+constexpr double kLeastDepth = 0.35;     // there, in radii of the ball
+
+class BodyEnds {
+ public:
+  BodyEnds(ThinSet& set, const Volume& object, const ExactRadius& radius, FirmDepth& depth,
+           Significance& significance, double threshold)
+      : set_(set),
+        radius_(radius),
+        depth_(depth),
+        steps_(set, object, depth),
+        significance_(significance),
+        threshold_(threshold) {}
+
+  void GrowAt(LatticePoint junction) {
+    if (!significance_.MayHaveBodyEnds(set_.RadiusOf(junction))) return;
+    const JunctionBall ball(set_, junction);
+    const LatticePoint body = ball.visited()[ball.body()].p;
+    const Coordinates on = Unit(set_.Way(body, junction));
+    double beside = 0;
+    for (size_t exit : ball.exits()) {
+      const LatticePoint p = ball.visited()[exit].p;
+      const double cosine = Dot(on, Unit(set_.Way(junction, p)));
+      if (cosine > kOnTheWay) return;
+      if (cosine > kBeside) beside = std::max<double>(beside, set_.RadiusOf(p));
+    }
+    for (size_t start : StartsIn(ball, on)) {
+      path_ = ball.WayTo(start);
+      own_ = path_.size();
+      const bool left = Follow(ball, on, beside, body);
+      if (left && IsSignificant()) return MeasureGrown();
+      CutTo(own_);
+      if (left) return;  // other starts lead to the same ridge
+    }
+  }
+
+ private:
+  // Points near the center, the farthest ahead first: near it others are beside other branches.
+  std::vector<size_t> StartsIn(const JunctionBall& ball, const Coordinates& on) const {
+    const LatticePoint center = ball.visited()[0].p;
+    std::vector<std::pair<double, size_t>> starts;
+    for (size_t n = 0; n < ball.visited().size(); ++n) {
+      const Coordinates way = set_.Way(center, ball.visited()[n].p);
+      if (Dot(way, way) > kStart * kStart * ball.radius() * ball.radius()) continue;
+      starts.emplace_back(-Dot(on, way), n);
+    }
+    std::ranges::sort(starts);
+    if (starts.size() > kMostStarts) starts.resize(kMostStarts);
+    std::vector<size_t> indices;
+    for (const auto& [behind, n] : starts) indices.push_back(n);
+    return indices;
+  }
+
+  // Extends the path along the ridge to its end; not at all if it does not leave the ball as the
+  // end of a body. Returns whether it leaves the ball.
+  bool Follow(const JunctionBall& ball, const Coordinates& on, double beside, LatticePoint body) {
+    const LatticePoint center = path_.front();
+    double best = 0;
+    size_t last = own_;
+    bool left = false;
+    while (const std::optional<LatticePoint> next = steps_.Next(path_, body)) {
+      const double way = set_.Between(center, *next), depth = depth_.At(*next);
+      if (way > kGrowth * ball.radius() + kGrowthUnits) break;
+      if (significance_.IsCovered(set_, path_, *next)) return false;
+      if (!left && way >= ball.reach()) {
+        left = true;
+        const double cosine = Dot(on, Unit(set_.Way(center, *next)));
+        const double least = std::max(kLeastDepth * ball.radius(), beside / kThinnerBeside);
+        if (depth < least || cosine < kStraight) {
+          last = own_;
+          break;
+        }
+      }
+      set_.Add(*next, static_cast<float>(depth));
+      path_.push_back(*next);
+      const double merit = depth + kTipSlope * way;
+      if (merit < best - kTipPatience) break;
+      if (merit > best) best = merit, last = path_.size();
+    }
+    CutTo(last);
+    return left;
+  }
+
+  bool IsSignificant() {
+    if (path_.size() == own_) return false;
+    const FreeBranch branch = BranchFrom(set_, path_.back());
+    return branch.junction.has_value() && significance_.OfBodyEnd(set_, branch) >= threshold_;
+  }
+
+  void CutTo(size_t size) {
+    for (; path_.size() > size; path_.pop_back()) set_.Remove(path_.back());
+  }
+
+  void MeasureGrown() {
+    for (size_t n = own_; n < path_.size(); ++n) set_.SetRadius(path_[n], radius_.At(path_[n]));
+  }
+
+  ThinSet& set_;
+  ExactRadius radius_;
+  FirmDepth& depth_;
+  TipSteps steps_;
+  Significance& significance_;
+  const double threshold_;
+  std::vector<LatticePoint> path_;  // from the junction
+  size_t own_ = 0;                  // of the path, the points that were there before
+};
+
+// The deepest point of each group of adjacent junction points.
+std::vector<LatticePoint> JunctionsOf(const ThinSet& set) {
+  std::vector<LatticePoint> points, deepest;
+  set.ForEachPoint([&](LatticePoint p) {
+    if (set.Degree(p) > 2) points.push_back(p);
+  });
+  std::ranges::sort(points);
+  PointSet seen;
+  for (LatticePoint p : points) {
+    if (!seen.insert(p).second) continue;
+    std::vector<LatticePoint> group = {p};
+    for (size_t n = 0; n < group.size(); ++n) {
+      ForEachNeighbor(group[n], set.NeighborsOf(group[n]), [&](LatticePoint q) {
+        if (set.Degree(q) > 2 && seen.insert(q).second) group.push_back(q);
+      });
+    }
+    deepest.push_back(
+        *std::ranges::max_element(group, {}, [&](LatticePoint q) { return set.RadiusOf(q); }));
+  }
+  return deepest;
+}
+
+}  // namespace
+
+void GrowBodyEnds(ThinSet& set, const Volume& object, const ExactRadius& radius, FirmDepth& depth,
+                  Significance& significance, double threshold, const exec::Context& context) {
+  BodyEnds ends(set, object, radius, depth, significance, threshold);
+  for (LatticePoint junction : JunctionsOf(set)) {
+    if (context.ShouldStop()) return;
+    ends.GrowAt(junction);
+  }
+}
+
+}  // namespace bccskel

@@ -1,0 +1,27 @@
+#ifndef BCCSKEL_CORE_PRUNING_GROW_BODY_ENDS_H_
+#define BCCSKEL_CORE_PRUNING_GROW_BODY_ENDS_H_
+
+#include "core/distance/exact_radius.h"
+#include "core/exec/context.h"
+#include "core/pruning/firm_depth.h"
+#include "core/pruning/significance.h"
+#include "core/pruning/thin_set.h"
+#include "core/volume/volume.h"
+
+namespace bccskel {
+
+// Adds the ends of bodies that thinning left out. Where the distance to the background falls by
+// more than about 0.25 per unit toward the end of a body, thinning keeps no curve. Without limbs,
+// tips grow there (PlaceTips()); where thin limbs leave the body before its end, its curve turns
+// into them and has no tip. Does:  at each junction, follows the ridge of the depths straight on
+// from the body. What it finds
+//        stays as a branch if it is free of the others and significant (Significance::OfBodyEnd()).
+// Why the topology stays: each point touches the set only at the point before it.
+// Needs: `radius` belongs to the object, `depth` to the object or to it with points beyond its
+//        border.
+void GrowBodyEnds(ThinSet& set, const Volume& object, const ExactRadius& radius, FirmDepth& depth,
+                  Significance& significance, double threshold, const exec::Context& context);
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_PRUNING_GROW_BODY_ENDS_H_

@@ -1,0 +1,68 @@
+#include "core/pruning/junction_ball.h"
+
+#include <algorithm>
+
+namespace bccskel {
+namespace {
+
+constexpr double kExit = 0.8;         // of the radius
+constexpr double kLeastRadius = 0.3;  // of a body's end at its exit, in radii of the ball
+constexpr double kThinner = 0.85;     // than the end: limbs that leave the body before it
+constexpr size_t kMostPoints = 1024;  // a closed surface or dense hair fills the whole ball
+
+}  // namespace
+
+JunctionBall::JunctionBall(const ThinSet& set, LatticePoint center,
+                           std::span<const LatticePoint> without)
+    : radius_(set.RadiusOf(center)), reach_(kExit * radius_), visited_{{center}} {
+  PointSet seen = {center};
+  if (!without.empty()) seen.insert(without.back());
+  for (size_t n = 0; n < visited_.size() && n < kMostPoints; ++n) {
+    const LatticePoint p = visited_[n].p;
+    const bool outside = n > 0 && set.Between(center, p) >= reach_;
+    if (outside || (n > 0 && set.Degree(p) == 1)) {
+      if (exits_.empty() || set.RadiusOf(p) > set.RadiusOf(visited_[body_].p)) body_ = n;
+      exits_.push_back(n);
+    }
+    if (outside) continue;
+    ForEachNeighbor(p, set.NeighborsOf(p), [&](LatticePoint q) {
+      if (seen.insert(q).second) visited_.push_back({q, n});
+    });
+  }
+}
+
+double JunctionBall::ThickestLimb(const ThinSet& set) const {
+  double thickest = 0;
+  for (size_t exit : exits_) {
+    const LatticePoint p = visited_[exit].p;
+    if (set.Between(p, visited_[body_].p) < reach_) continue;
+    thickest = std::max<double>(thickest, set.RadiusOf(p));
+  }
+  return thickest;
+}
+
+std::vector<LatticePoint> JunctionBall::WayTo(size_t visited) const {
+  std::vector<LatticePoint> way = {visited_[visited].p};
+  for (size_t n = visited; n != 0;) {
+    n = visited_[n].before;
+    way.push_back(visited_[n].p);
+  }
+  std::ranges::reverse(way);
+  return way;
+}
+
+bool IsBodyEnd(const ThinSet& set, const FreeBranch& branch) {
+  const LatticePoint junction = *branch.junction;
+  if (set.Degree(junction) < 3) return false;
+  const double radius = set.RadiusOf(junction);
+  const auto exit = std::find_if(branch.points.rbegin(), branch.points.rend(), [&](LatticePoint p) {
+    return set.Between(junction, p) >= kExit * radius;
+  });
+  if (exit == branch.points.rend()) return false;
+  const double own = set.RadiusOf(*exit);
+  if (own < kLeastRadius * radius) return false;
+  const JunctionBall ball(set, junction, branch.points);
+  return !ball.exits().empty() && ball.ThickestLimb(set) <= kThinner * own;
+}
+
+}  // namespace bccskel

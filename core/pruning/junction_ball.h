@@ -1,0 +1,53 @@
+#ifndef BCCSKEL_CORE_PRUNING_JUNCTION_BALL_H_
+#define BCCSKEL_CORE_PRUNING_JUNCTION_BALL_H_
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "core/pruning/branch_walk.h"
+#include "core/pruning/thin_set.h"
+
+namespace bccskel {
+
+// The part of a skeleton around a junction, and where it leaves the ball there. Near the center all
+// branches are as thick as the ball, so they are compared at 0.8 of its radius.
+class JunctionBall {
+ public:
+  struct Visited {
+    LatticePoint p;
+    size_t before = 0;  // index of the point before it on the way from the center
+  };
+
+  // `without`: the points of a branch that is left out, the one beside the center last.
+  JunctionBall(const ThinSet& set, LatticePoint center, std::span<const LatticePoint> without = {});
+
+  // From the center, which is the first, to the exits.
+  std::span<const Visited> visited() const { return visited_; }
+  // Indices of the first points outside, and of ends inside.
+  std::span<const size_t> exits() const { return exits_; }
+  // Of the exits, that with the largest radius: where the body lies. Needs: there is an exit.
+  size_t body() const { return body_; }
+  double radius() const { return radius_; }
+  // Distance of the exits from the center.
+  double reach() const { return reach_; }
+  // The largest radius of the exits that do not lead toward the body; 0 if there is none.
+  double ThickestLimb(const ThinSet& set) const;
+  // The points from the center to a visited one.
+  std::vector<LatticePoint> WayTo(size_t visited) const;
+
+ private:
+  const double radius_, reach_;
+  std::vector<Visited> visited_;
+  std::vector<size_t> exits_;
+  size_t body_ = 0;
+};
+
+// Whether a branch is an end of the body itself, which thin limbs leave before it, such as a snout
+// beyond two ears: except for the body, nothing that leaves the ball at its junction is as thick.
+// Needs: the branch has a junction.
+bool IsBodyEnd(const ThinSet& set, const FreeBranch& branch);
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_PRUNING_JUNCTION_BALL_H_

@@ -1,0 +1,91 @@
+// Ends of bodies that thin limbs leave before the end.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "core/pipeline/skeletonize.h"
+#include "tests/core/pruning/sampled.h"
+
+namespace bccskel {
+namespace {
+
+using test::GapAt;
+using test::Joined;
+using test::ToLimb;
+
+int64_t FreeEndsOf(const SkeletonGraph& graph) {
+  return std::ranges::count(graph.nodes, NodeKind::kEnd, &SkeletonNode::kind);
+}
+
+// A pair of limbs leaves a spheroid three times as long as thick. Thinning keeps no curve between
+// them and its end; where it keeps one, it narrows too fast for a limb.
+TEST(BodyEnds, SpheroidsWithAPairOfLimbsHaveFourEnds) {
+  constexpr int32_t kCells = 100;
+  constexpr double kThick = 24, kLong = 3 * kThick, kLimb = 0.12 * kThick;
+  const double focus = kLong - kThick * kThick / kLong;  // where the ridge ends
+  for (const double place : {0.3, 0.5}) {
+    const double x = place * kLong, y = kThick + 40;
+    const auto solid = [&](const WorldPoint& p) {
+      const double across = (p[1] * p[1] + p[2] * p[2]) / (kThick * kThick);
+      return p[0] * p[0] / (kLong * kLong) + across <= 1 ||
+             ToLimb(p, {x, -y, 0}, kLimb, {x, y, 0}, kLimb) <= 0;
+    };
+    for (const double turn : {0.0, 0.3, 0.8, 2.1}) {
+      const auto result = Skeletonize(test::Sampled(solid, kCells, turn), {}, {});
+      ASSERT_TRUE(result.ok()) << result.status();
+      EXPECT_EQ(FreeEndsOf(result->graph), 4) << place << ' ' << turn;
+      for (const double end : {-focus, focus}) {
+        EXPECT_LT(GapAt({end, 0, 0}, result->graph, kCells, turn), 0.6 * kThick)
+            << place << ' ' << turn << ' ' << end;
+      }
+    }
+  }
+}
+
+// A snout narrows by half its length, and two ears leave the head beside it.
+TEST(BodyEnds, SnoutsBesideTwoEarsStay) {
+  constexpr int32_t kCells = 90;
+  constexpr double kHead = 26;
+  const WorldPoint center = {0, 0, 0}, body = {-80, 0, 0}, tip = {1.35 * kHead, 0, 0};
+  const auto solid = [&](const WorldPoint& p) {
+    const double neck = ToLimb(p, body, 0.7 * kHead, center, 0.7 * kHead);
+    double out = Joined(neck, ToLimb(p, center, kHead, center, kHead), 4);
+    out = Joined(out, ToLimb(p, center, 0.7 * kHead, tip, 0.35 * kHead), 4);
+    for (const double side : {-1.0, 1.0}) {
+      const WorldPoint ear = {-0.1 * kHead, side * kHead, 2 * kHead};
+      out = std::min(out, ToLimb(p, {0, side * 0.4 * kHead, 0.5 * kHead}, 4, ear, 4));
+    }
+    return out <= 0;
+  };
+  for (const double turn : {0.0, 0.4, 1.0, 1.6, 2.8}) {
+    const auto result = Skeletonize(test::Sampled(solid, kCells, turn), {}, {});
+    ASSERT_TRUE(result.ok()) << result.status();
+    EXPECT_EQ(FreeEndsOf(result->graph), 4) << turn;
+    EXPECT_LT(GapAt(tip, result->graph, kCells, turn), kHead / 2) << turn;
+  }
+}
+
+// The face beyond the limbs sticks out by less than the bar is thick, and its corners are no ends.
+TEST(BodyEnds, FacesAndCapsJustBeyondLimbsHaveNone) {
+  constexpr int32_t kCells = 90;
+  constexpr double kThick = 18, kLimb = 4;
+  for (const bool round : {false, true}) {
+    const auto solid = [&](const WorldPoint& p) {
+      const double along = round ? std::max(p[0] - 40, 0.0) : 0;
+      const double across =
+          round ? std::hypot(along, p[1], p[2]) : std::max(std::abs(p[1]), std::abs(p[2]));
+      return (across <= kThick && p[0] >= -80 && p[0] <= (round ? 80 : 58)) ||
+             ToLimb(p, {44, -60, 0}, kLimb, {44, 60, 0}, kLimb) <= 0;
+    };
+    for (const double turn : {0.0, 0.3, 0.8, 2.1}) {
+      const auto result = Skeletonize(test::Sampled(solid, kCells, turn), {}, {});
+      ASSERT_TRUE(result.ok()) << result.status();
+      EXPECT_EQ(FreeEndsOf(result->graph), 3) << round << ' ' << turn;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace bccskel
