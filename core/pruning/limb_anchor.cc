@@ -149,8 +149,7 @@ WayOn WayOnFrom(const ThinSet& set, double step, LatticePoint anchor,
   size_t n = path.size() - 1;
   while (n > 0 && set.Between(path[n], end) < back) --n;
   const LatticePoint before = n > 0 ? path[n] : anchor;
-  const bool too_near =
-      set.Between(before, end) < std::max(kLeastWayRadii * radius, kLeastAim * step);
+  const bool too_near = before == end || set.Between(before, end) < kLeastWayRadii * radius;
   return too_near ? WayOn() : StraightOn(set.Way(before, end), radius);
 }
 

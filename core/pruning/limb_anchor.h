@@ -58,7 +58,7 @@ struct WayOn {
 // length but 0.
 WayOn StraightOn(const Coordinates& way, double radius);
 // As the last two radii of the path lead, at least four steps; the way from the anchor if the path
-// is shorter. Without a penalty if that is less than half the radius or four steps.
+// is shorter. Without a penalty if that is less than half the radius.
 // Shapes: `path` comes from `anchor`, which is not part of it, and ends where the ridge ends;
 //         `step` as above.
 WayOn WayOnFrom(const ThinSet& set, double step, LatticePoint anchor,
