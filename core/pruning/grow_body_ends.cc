@@ -36,7 +36,6 @@ class BodyEnds {
         threshold_(threshold) {}
 
   void GrowAt(LatticePoint junction) {
-    if (!significance_.MayHaveBodyEnds(set_.RadiusOf(junction))) return;
     const JunctionBall ball(set_, junction);
     const LatticePoint body = ball.visited()[ball.body()].p;
     const Coordinates on = Unit(set_.Way(body, junction));
@@ -128,11 +127,15 @@ class BodyEnds {
   size_t own_ = 0;                  // of the path, the points that were there before
 };
 
-// The deepest point of each group of adjacent junction points.
-std::vector<LatticePoint> JunctionsOf(const ThinSet& set) {
+// The deepest point of each group of adjacent junction points, of those in balls that are large
+// enough.
+std::vector<LatticePoint> JunctionsOf(const ThinSet& set, const Significance& significance) {
+  const auto counts = [&](LatticePoint p) {
+    return set.Degree(p) > 2 && significance.MayHaveBodyEnds(set.RadiusOf(p));
+  };
   std::vector<LatticePoint> points, deepest;
   set.ForEachPoint([&](LatticePoint p) {
-    if (set.Degree(p) > 2) points.push_back(p);
+    if (counts(p)) points.push_back(p);
   });
   std::ranges::sort(points);
   PointSet seen;
@@ -141,7 +144,7 @@ std::vector<LatticePoint> JunctionsOf(const ThinSet& set) {
     std::vector<LatticePoint> group = {p};
     for (size_t n = 0; n < group.size(); ++n) {
       ForEachNeighbor(group[n], set.NeighborsOf(group[n]), [&](LatticePoint q) {
-        if (set.Degree(q) > 2 && seen.insert(q).second) group.push_back(q);
+        if (counts(q) && seen.insert(q).second) group.push_back(q);
       });
     }
     deepest.push_back(
@@ -155,7 +158,7 @@ std::vector<LatticePoint> JunctionsOf(const ThinSet& set) {
 void GrowBodyEnds(ThinSet& set, const Volume& object, const ExactRadius& radius, FirmDepth& depth,
                   Significance& significance, double threshold, const exec::Context& context) {
   BodyEnds ends(set, object, radius, depth, significance, threshold);
-  for (LatticePoint junction : JunctionsOf(set)) {
+  for (LatticePoint junction : JunctionsOf(set, significance)) {
     if (context.ShouldStop()) return;
     ends.GrowAt(junction);
   }

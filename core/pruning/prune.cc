@@ -155,6 +155,12 @@ absl::StatusOr<ThinSkeleton> Prune(const ThinSkeleton& curves, const PrunedObjec
   }
   Significance significance(in.object, noise, std::move(extender), std::move(firm_depth),
                             space.window());
+  std::optional<ExactRadius> searching;
+  std::optional<FirmDepth> depth;  // none if no tips are placed
+  if (options.tips == TipPlacement::kRidge) {
+    searching.emplace(in.radius.searches() ? in.radius : ExactRadius(space));
+    depth.emplace(space, *searching);
+  }
   TurnedTips turned;
   if (options.rule != PruningRule::kNone) {
     const double threshold = ThresholdOf(options, curves.points.placement());
@@ -164,9 +170,8 @@ absl::StatusOr<ThinSkeleton> Prune(const ThinSkeleton& curves, const PrunedObjec
     turned.DropFrom(threshold);
     if (by_shape) {
       CollapsePaths(set, significance, threshold, kept);
-      if (options.tips == TipPlacement::kRidge) {
-        FirmDepth depth(space, in_space);
-        GrowBodyEnds(set, in.object, in.radius, depth, significance, threshold, context);
+      if (depth.has_value()) {
+        GrowBodyEnds(set, in.object, in.radius, *depth, significance, threshold, context);
       }
     }
     if (absl::Status stop = context.StopStatus(); !stop.ok()) return stop;
@@ -179,8 +184,8 @@ absl::StatusOr<ThinSkeleton> Prune(const ThinSkeleton& curves, const PrunedObjec
   };
   absl::Status placed;
   const auto place_tips = [&](const exec::Context& own) {
-    if (options.tips != TipPlacement::kRidge) return;
-    placed = PlaceTips(set, in.object, space, in.radius, kept, noise, turned, own);
+    if (!depth.has_value()) return;
+    placed = PlaceTips(set, in.object, in.radius, *searching, *depth, kept, noise, turned, own);
   };
   RunBoth(find_levels, place_tips, context.WorkersFor(set.Ends().size(), Significance::kWork),
           context);

@@ -90,13 +90,24 @@ double Significance::OfBodyEnd(const ThinSet& set, const FreeBranch& branch, dou
   constexpr double kNone = -std::numeric_limits<double>::infinity();
   const LatticePoint junction = *branch.junction;
   const double radius = set.RadiusOf(junction);
-  if (!MayHaveBodyEnds(radius) || !IsBodyEnd(set, branch)) return kNone;
+  if (!MayHaveBodyEnds(radius)) return kNone;
+  const auto sticks_out = [&](LatticePoint p, double depth) {
+    return set.Between(junction, p) + depth - radius;
+  };
+  double farthest = 0;
+  for (LatticePoint p : branch.points) {
+    farthest = std::max(farthest, sticks_out(p, set.RadiusOf(p)));
+  }
+  // The extension adds at most its length and the rise of its radius.
+  constexpr double kMost = TipExtender::kLongest + TipExtender::kLargestRise;
+  if (farthest + kMost <= std::max(least, kLeastRatio) * radius) return kNone;
+  if (!IsBodyEnd(set, branch)) return kNone;
   BranchPath path = PathOf(set, branch);
   if (extender_.has_value()) extender_->Append(path);
-  double farthest = 0;
   LatticePoint tip = junction;
+  farthest = 0;
   for (size_t n = 0; n < path.points.size(); ++n) {
-    const double out = set.Between(junction, path.points[n]) + path.radii[n] - radius;
+    const double out = sticks_out(path.points[n], path.radii[n]);
     if (out > farthest) farthest = out, tip = path.points[n];
   }
   if (farthest == 0) return kNone;

@@ -34,10 +34,10 @@ namespace bccskel {
 //        lines across the branch follow the wall, and the fall of the inscribed circle's radius may
 //        replace that of D. The best run of the later half of a run is evaluated in the same way,
 //        and so on, and so is the best run before it; the largest result counts.
-// The significance is a ratio of lengths of the shape. Only the noise depends on the sampling, so
-// it is the same at any resolution and in any pose.
 //        The end of a body that thin limbs leave before it has a significance of its own
 //        (OfBodyEnd()), if that is larger.
+// The significance is a ratio of lengths of the shape. Only the noise depends on the sampling, so
+// it is the same at any resolution and in any pose.
 // Cost:  48 points of the branch for each of one to several runs. For a run that may be the best,
 // 176
 //        rays if it sticks out at all, up to 396 if the branch may stay and is not round, and in a
@@ -64,8 +64,8 @@ class Significance {
   double Of(const ThinSet& set, const FreeBranch& branch);
   // The significance of a branch as the end of a body (IsBodyEnd()), which Of() does not fall
   // below: how far it sticks out of the ball at its junction, relative to that ball's radius and
-  // the width, as above. -infinity if it is none, or the ball is too small. Not exact if it is at
-  // most `least`. Needs: as Of().
+  // the width, as above. -infinity if it is none, or the ball is too small, or the value is at
+  // most `least` or 0.2. Needs: as Of().
   double OfBodyEnd(const ThinSet& set, const FreeBranch& branch,
                    double least = -std::numeric_limits<double>::infinity());
   // Whether a ball of this radius at a junction is large enough, compared with the noise.

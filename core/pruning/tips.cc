@@ -40,16 +40,15 @@ constexpr int kThinner = 3;              // in thin limbs: so many fewer than th
 
 class TipPlacer {
  public:
-  TipPlacer(ThinSet& set, const Volume& object, const Volume& space, const ExactRadius& radius,
-            const PointSet& keep, const SurfaceNoise& noise, const TurnedTips& turned,
-            const exec::Context& context)
+  TipPlacer(ThinSet& set, const Volume& object, const ExactRadius& radius,
+            const ExactRadius& searching, FirmDepth& depth, const PointSet& keep,
+            const SurfaceNoise& noise, const TurnedTips& turned, const exec::Context& context)
       : set_(set),
         bricks_(object),
         radius_(radius),
-        searching_(radius.searches() ? radius : ExactRadius(space)),
-        depth_(space, searching_),
-        steps_(set, object, depth_),
-        flat_(object, searching_, depth_),  // it ends at the border
+        depth_(depth),
+        steps_(set, object, depth),
+        flat_(object, searching, depth),  // it ends at the border
         last_limb_(object, noise),
         keep_(keep),
         turned_(turned),
@@ -343,8 +342,7 @@ class TipPlacer {
   ThinSet& set_;
   NearbyBricks bricks_;
   ExactRadius radius_;
-  const ExactRadius searching_;
-  FirmDepth depth_;
+  FirmDepth& depth_;
   TipSteps steps_;
   FlatEnd flat_;
   LastLimb last_limb_;
@@ -370,12 +368,13 @@ class TipPlacer {
 
 }  // namespace
 
-absl::Status PlaceTips(ThinSet& set, const Volume& object, const Volume& space,
-                       const ExactRadius& radius, const PointSet& keep, const SurfaceNoise& noise,
-                       const TurnedTips& turned, const exec::Context& context) {
+absl::Status PlaceTips(ThinSet& set, const Volume& object, const ExactRadius& radius,
+                       const ExactRadius& searching, FirmDepth& depth, const PointSet& keep,
+                       const SurfaceNoise& noise, const TurnedTips& turned,
+                       const exec::Context& context) {
   const std::vector<LatticePoint> ends = set.Ends();
   if (ends.empty()) return absl::OkStatus();
-  TipPlacer placer(set, object, space, radius, keep, noise, turned, context);
+  TipPlacer placer(set, object, radius, searching, depth, keep, noise, turned, context);
   for (LatticePoint end : ends) {
     if (context.ShouldStop()) return context.StopStatus();
     placer.Place(end);

@@ -4,6 +4,7 @@
 #include "absl/status/status.h"
 #include "core/distance/exact_radius.h"
 #include "core/exec/context.h"
+#include "core/pruning/firm_depth.h"
 #include "core/pruning/surface_noise.h"
 #include "core/pruning/thin_set.h"
 #include "core/pruning/turned_tips.h"
@@ -19,12 +20,15 @@ namespace bccskel {
 // units (once where steps along an axis are twice as long as others), and not into the ball of
 // another branch. Points of `keep` are not cut off. What turns aside at the ends of limbs that are
 // not flat is removed first (TurnedTips).
-// Needs:  `radius` belongs to `object`. `space` is the object, or the object with points beyond its
-//         border, into which no tip grows. `noise` is that of its surface.
+// Needs:  `radius` belongs to `object`; `searching` searches, and `depth` belongs to the object or
+// to
+//         it with points beyond its border, into which no tip grows. `noise` is that of its
+//         surface.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
-absl::Status PlaceTips(ThinSet& set, const Volume& object, const Volume& space,
-                       const ExactRadius& radius, const PointSet& keep, const SurfaceNoise& noise,
-                       const TurnedTips& turned, const exec::Context& context);
+absl::Status PlaceTips(ThinSet& set, const Volume& object, const ExactRadius& radius,
+                       const ExactRadius& searching, FirmDepth& depth, const PointSet& keep,
+                       const SurfaceNoise& noise, const TurnedTips& turned,
+                       const exec::Context& context);
 
 }  // namespace bccskel
 
