@@ -42,11 +42,11 @@ struct Range {
 };
 using LatticeBox = std::array<Range, 3>;
 
-// Needs: at least one point.
 constexpr std::string_view kOtherObject =
     "is not what the result was made from, or was read with other options (those that select the "
     "object and its grid, such as --threshold, --voxel-size or --spacing, are needed again)";
 
+// Needs: at least one point.
 LatticeBox BoxOf(const Volume& object) {
   constexpr Range kNone = {2.0 * kMaxExtentCells, -1};
   LatticeBox box = {kNone, kNone, kNone};
