@@ -11,10 +11,6 @@
 namespace bccskel {
 namespace {
 
-// A cavity leaves a whole surface as one cluster; what lies this far from the branch says nothing
-// about it.
-constexpr size_t kMostClusterPoints = 64;
-
 constexpr uint64_t kStepsOfABranch = 128;  // in a StopPoll: for the work of judging it
 
 }  // namespace
@@ -41,7 +37,7 @@ uint64_t BranchPruner::Run(const OnRemoved& on_removed, TurnedTips* turned) {
 }
 
 void BranchPruner::NoteTurned(const FreeBranch& branch, TurnedTips& turned) const {
-  const std::vector<LatticePoint> cluster = ClusterOf(*branch.junction);
+  const std::vector<LatticePoint> cluster = ClusterOf(set_, *branch.junction);
   if (cluster.size() >= kMostClusterPoints) return;
   turned.Note(set_, branch, cluster,
               [&](const FreeBranch& other) { return WorthOf(other, *other.junction); });
@@ -94,7 +90,7 @@ double BranchPruner::WorthOf(const FreeBranch& branch, LatticePoint junction) co
 // The largest radius in the cluster.
 double BranchPruner::BallAt(LatticePoint junction) const {
   float ball = 0;
-  for (LatticePoint p : ClusterOf(junction)) ball = std::max(ball, set_.RadiusOf(p));
+  for (LatticePoint p : ClusterOf(set_, junction)) ball = std::max(ball, set_.RadiusOf(p));
   return ball;
 }
 
@@ -104,19 +100,6 @@ double BranchPruner::LengthTo(const FreeBranch& branch, LatticePoint junction) c
     length += set_.Between(branch.points[n - 1], branch.points[n]);
   }
   return length;
-}
-
-// Points around a junction point that have three or more neighbors.
-std::vector<LatticePoint> BranchPruner::ClusterOf(LatticePoint junction) const {
-  std::vector<LatticePoint> cluster = {junction};
-  for (size_t n = 0; n < cluster.size() && cluster.size() < kMostClusterPoints; ++n) {
-    ForEachNeighbor(cluster[n], set_.NeighborsOf(cluster[n]), [&](LatticePoint q) {
-      if (set_.Degree(q) > 2 && std::ranges::find(cluster, q) == cluster.end()) {
-        cluster.push_back(q);
-      }
-    });
-  }
-  return cluster;
 }
 
 // Returns the removed points: those of the branch and some at the junction.
@@ -142,7 +125,7 @@ void BranchPruner::JudgeAround(const std::set<LatticePoint>& places) {
     if (!set_.Contains(p)) continue;
     sources.insert(p);
     if (set_.Degree(p) <= 2) continue;
-    for (LatticePoint q : ClusterOf(p)) sources.insert(q);
+    for (LatticePoint q : ClusterOf(set_, p)) sources.insert(q);
   }
   for (LatticePoint p : sources) FindEndsBeyond(p, sources, ends);
   for (LatticePoint end : ends) Judge(BranchFrom(set_, end));

@@ -63,7 +63,6 @@ class BranchPruner {
   double WorthOf(const FreeBranch& branch, LatticePoint junction) const;
   double BallAt(LatticePoint junction) const;
   double LengthTo(const FreeBranch& branch, LatticePoint junction) const;
-  std::vector<LatticePoint> ClusterOf(LatticePoint junction) const;
 
   std::vector<LatticePoint> Remove(const FreeBranch& branch);
 

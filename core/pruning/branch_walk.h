@@ -1,7 +1,9 @@
 #ifndef BCCSKEL_CORE_PRUNING_BRANCH_WALK_H_
 #define BCCSKEL_CORE_PRUNING_BRANCH_WALK_H_
 
+#include <algorithm>
 #include <bit>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -42,6 +44,23 @@ inline LatticePoint FollowCurve(const ThinSet& set, LatticePoint previous, Latti
     mask = set.NeighborsOf(p);
   }
   return p;
+}
+
+// A cavity leaves a whole surface as one cluster; what lies this far from its first point says
+// nothing about that.
+inline constexpr size_t kMostClusterPoints = 64;
+
+// The junction point and those connected to it by points with three or more neighbors.
+inline std::vector<LatticePoint> ClusterOf(const ThinSet& set, LatticePoint junction) {
+  std::vector<LatticePoint> cluster = {junction};
+  for (size_t n = 0; n < cluster.size() && cluster.size() < kMostClusterPoints; ++n) {
+    ForEachNeighbor(cluster[n], set.NeighborsOf(cluster[n]), [&](LatticePoint q) {
+      if (set.Degree(q) > 2 && std::ranges::find(cluster, q) == cluster.end()) {
+        cluster.push_back(q);
+      }
+    });
+  }
+  return cluster;
 }
 
 // Needs: an end point.

@@ -37,6 +37,7 @@ class BodyEnds {
 
   void GrowAt(LatticePoint junction) {
     const JunctionBall ball(set_, junction);
+    if (ball.exits().empty()) return;
     const LatticePoint body = ball.visited()[ball.body()].p;
     const Coordinates on = Unit(set_.Way(body, junction));
     double beside = 0;
@@ -127,28 +128,22 @@ class BodyEnds {
   size_t own_ = 0;                  // of the path, the points that were there before
 };
 
-// The deepest point of each group of adjacent junction points, of those in balls that are large
-// enough.
+// The deepest point of each junction's cluster, of those in balls that are large enough. Surfaces
+// are no junctions.
 std::vector<LatticePoint> JunctionsOf(const ThinSet& set, const Significance& significance) {
-  const auto counts = [&](LatticePoint p) {
-    return set.Degree(p) > 2 && significance.MayHaveBodyEnds(set.RadiusOf(p));
-  };
   std::vector<LatticePoint> points, deepest;
   set.ForEachPoint([&](LatticePoint p) {
-    if (counts(p)) points.push_back(p);
+    if (set.Degree(p) > 2 && significance.MayHaveBodyEnds(set.RadiusOf(p))) points.push_back(p);
   });
   std::ranges::sort(points);
   PointSet seen;
   for (LatticePoint p : points) {
-    if (!seen.insert(p).second) continue;
-    std::vector<LatticePoint> group = {p};
-    for (size_t n = 0; n < group.size(); ++n) {
-      ForEachNeighbor(group[n], set.NeighborsOf(group[n]), [&](LatticePoint q) {
-        if (counts(q) && seen.insert(q).second) group.push_back(q);
-      });
-    }
+    if (seen.contains(p)) continue;
+    const std::vector<LatticePoint> cluster = ClusterOf(set, p);
+    seen.insert(cluster.begin(), cluster.end());
+    if (cluster.size() >= kMostClusterPoints) continue;
     deepest.push_back(
-        *std::ranges::max_element(group, {}, [&](LatticePoint q) { return set.RadiusOf(q); }));
+        *std::ranges::max_element(cluster, {}, [&](LatticePoint q) { return set.RadiusOf(q); }));
   }
   return deepest;
 }
