@@ -10,7 +10,8 @@
 namespace bccskel {
 namespace {
 
-constexpr double kInside = 0.9;  // in radii
+constexpr double kInside = 0.9;    // in radii
+constexpr double kRounding = 0.1;  // lattice units, more than that of radii
 constexpr Coordinates kAlongAll = {1, 1, 1};
 
 // Radii of a level are less than 2^level.
@@ -60,7 +61,10 @@ void BallIndex::SetOwn(std::span<const LatticePoint> own) {
   }
 }
 
-bool BallIndex::IsCovered(LatticePoint p, double distance_to_junction, const ThinSet& set) const {
+// Where a ball covers p, at least a tenth of its radius remains to the background.
+bool BallIndex::IsCovered(LatticePoint p, double radius, double distance_to_junction,
+                          const ThinSet& set) const {
+  const double largest = std::min(distance_to_junction / 2, radius / (1 - kInside) + kRounding);
   const Coordinates place = PlaceOf(p, scale_);
   const auto covers = [&](const Ball& ball) {
     const Coordinates between = Sum(PlaceOf(ball.center, scale_), -1, place);
@@ -68,9 +72,8 @@ bool BallIndex::IsCovered(LatticePoint p, double distance_to_junction, const Thi
     return Dot(between, between) < reach * reach && ball.branch != branch_ &&
            2 * ball.radius < distance_to_junction && set.Contains(ball.center);
   };
-  // Balls of a level have at least half the radius of its cubes' width.
-  double width = 1;
-  for (size_t level = 0; level < kLevels && width <= distance_to_junction; ++level, width *= 2) {
+  double width = 1;  // radii of a level are at least half of this, or 0
+  for (size_t level = 0; level < kLevels && width / 2 <= largest; ++level, width *= 2) {
     const PointTable<uint32_t>& cubes = levels_[level];
     if (cubes.empty()) continue;
     const double reach = kInside * width;

@@ -30,9 +30,11 @@ class BallIndex {
   void SetOwn(std::span<const LatticePoint> own);
 
   // Whether p lies within 0.9 of the radius of a point of `set` that is not on p's own branch.
-  // `distance_to_junction`: from p. Points whose radius is half of that or more do not count, since
-  // branches that meet are always close to each other there.
-  bool IsCovered(LatticePoint p, double distance_to_junction, const ThinSet& set) const;
+  // `radius`: the distance from p to the background, or more. `distance_to_junction`: from p.
+  // Points whose radius is half of that or more do not count, since branches that meet are always
+  // close to each other there.
+  bool IsCovered(LatticePoint p, double radius, double distance_to_junction,
+                 const ThinSet& set) const;
 
  private:
   static constexpr size_t kLevels = 32;

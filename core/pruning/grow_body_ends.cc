@@ -9,6 +9,7 @@
 #include "core/distance/places.h"
 #include "core/pruning/branch_walk.h"
 #include "core/pruning/junction_ball.h"
+#include "core/pruning/point_table.h"
 #include "core/pruning/tip_steps.h"
 
 namespace bccskel {
@@ -84,7 +85,7 @@ class BodyEnds {
     while (const std::optional<LatticePoint> next = steps_.Next(path_, body)) {
       const double way = set_.Between(center, *next), depth = depth_.At(*next);
       if (way > kGrowth * ball.radius() + kGrowthUnits) break;
-      if (significance_.IsCovered(set_, path_, *next)) return false;
+      if (significance_.IsCovered(set_, path_, *next, depth)) return false;
       if (!left && way >= ball.reach()) {
         left = true;
         const double cosine = Dot(on, Unit(set_.Way(center, *next)));
@@ -136,11 +137,18 @@ std::vector<LatticePoint> JunctionsOf(const ThinSet& set, const Significance& si
     if (set.Degree(p) > 2 && significance.MayHaveBodyEnds(set.RadiusOf(p))) points.push_back(p);
   });
   std::ranges::sort(points);
-  PointSet seen;
+  PointTable<char> seen;  // each point of a surface once, which ClusterOf() would visit often
   for (LatticePoint p : points) {
-    if (seen.contains(p)) continue;
-    const std::vector<LatticePoint> cluster = ClusterOf(set, p);
-    seen.insert(cluster.begin(), cluster.end());
+    if (seen.Find(p) != nullptr) continue;
+    seen.Set(p, 0);
+    std::vector<LatticePoint> cluster = {p};
+    for (size_t n = 0; n < cluster.size(); ++n) {
+      ForEachNeighbor(cluster[n], set.NeighborsOf(cluster[n]), [&](LatticePoint q) {
+        if (set.Degree(q) <= 2 || seen.Find(q) != nullptr) return;
+        seen.Set(q, 0);
+        cluster.push_back(q);
+      });
+    }
     if (cluster.size() >= kMostClusterPoints) continue;
     deepest.push_back(
         *std::ranges::max_element(cluster, {}, [&](LatticePoint q) { return set.RadiusOf(q); }));

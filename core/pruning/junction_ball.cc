@@ -2,22 +2,31 @@
 
 #include <algorithm>
 
+#include "core/pruning/point_table.h"
+
 namespace bccskel {
 namespace {
 
-constexpr double kExit = 0.8;         // of the radius
-constexpr double kLeastRadius = 0.3;  // of a body's end at its exit, in radii of the ball
-constexpr double kThinner = 0.85;     // than the end: limbs that leave the body before it
-constexpr size_t kMostPoints = 1024;  // a closed surface or dense hair fills the whole ball
+constexpr double kExit = 0.8;          // of the radius
+constexpr double kLeastRadius = 0.3;   // of a body's end at its exit, in radii of the ball
+constexpr double kThinnerLimb = 0.85;  // than the end: limbs that leave the body before it
+constexpr double kMostPoints = 1024;   // a closed surface or dense hair fills the whole ball
+constexpr double kMostPerUnit = 8;     // of its radius; curves have one point per unit at most
 
 }  // namespace
 
 JunctionBall::JunctionBall(const ThinSet& set, LatticePoint center,
                            std::span<const LatticePoint> without)
     : radius_(set.RadiusOf(center)), reach_(kExit * radius_), visited_{{center}} {
-  PointSet seen = {center};
-  if (!without.empty()) seen.insert(without.back());
-  for (size_t n = 0; n < visited_.size() && n < kMostPoints; ++n) {
+  const auto most = static_cast<size_t>(std::max(kMostPoints, kMostPerUnit * radius_));
+  PointTable<size_t> seen;  // index of each in visited_
+  seen.Set(center, 0);
+  if (!without.empty()) seen.Set(without.back(), 0);
+  for (size_t n = 0; n < visited_.size(); ++n) {
+    if (n == most) {
+      exits_.clear();
+      return;
+    }
     const LatticePoint p = visited_[n].p;
     const bool outside = n > 0 && set.Between(center, p) >= reach_;
     if (outside || (n > 0 && set.Degree(p) == 1)) {
@@ -26,7 +35,9 @@ JunctionBall::JunctionBall(const ThinSet& set, LatticePoint center,
     }
     if (outside) continue;
     ForEachNeighbor(p, set.NeighborsOf(p), [&](LatticePoint q) {
-      if (seen.insert(q).second) visited_.push_back({q, n});
+      if (seen.Find(q) != nullptr) return;
+      seen.Set(q, visited_.size());
+      visited_.push_back({q, n});
     });
   }
 }
@@ -62,7 +73,7 @@ bool IsBodyEnd(const ThinSet& set, const FreeBranch& branch) {
   const double own = set.RadiusOf(*exit);
   if (own < kLeastRadius * radius) return false;
   const JunctionBall ball(set, junction, branch.points);
-  return !ball.exits().empty() && ball.ThickestLimb(set) <= kThinner * own;
+  return !ball.exits().empty() && ball.ThickestLimb(set) <= kThinnerLimb * own;
 }
 
 }  // namespace bccskel

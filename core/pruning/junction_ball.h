@@ -24,7 +24,7 @@ class JunctionBall {
 
   // From the center, which is the first, to the exits.
   std::span<const Visited> visited() const { return visited_; }
-  // Indices of the first points outside, and of ends inside.
+  // Indices of the first points outside, and of ends inside. None if the ball is full of points.
   std::span<const size_t> exits() const { return exits_; }
   // Of the exits, that with the largest radius: where the body lies. Needs: there is an exit.
   size_t body() const { return body_; }

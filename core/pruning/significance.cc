@@ -128,10 +128,10 @@ bool Significance::MayHaveBodyEnds(double radius) const {
 }
 
 bool Significance::IsCovered(const ThinSet& set, std::span<const LatticePoint> path,
-                             LatticePoint next) {
+                             LatticePoint next, double radius) {
   if (!balls_.has_value()) balls_.emplace(set, scale_);
   balls_->SetOwn(path);
-  return balls_->IsCovered(next, set.Between(next, path.front()), set);
+  return balls_->IsCovered(next, radius, set.Between(next, path.front()), set);
 }
 
 double Significance::OfPath(const ThinSet& set, std::array<BranchPath, 2> ways) const {
@@ -349,7 +349,8 @@ double Significance::UncoveredShare(const ThinSet& set, const FreeBranch& branch
   size_t covered = 0, samples = 0;
   for (size_t n = std::max<size_t>(run.from, 1); n <= last; n += stride, ++samples) {
     const LatticePoint p = branch.points[branch.points.size() - n];
-    if (balls_->IsCovered(p, set.Between(p, *branch.junction), set)) ++covered;
+    const double way = set.Between(p, *branch.junction);
+    if (balls_->IsCovered(p, set.RadiusOf(p), way, set)) ++covered;
   }
   return samples == 0 ? 1 : 1 - static_cast<double>(covered) / static_cast<double>(samples);
 }

@@ -72,7 +72,9 @@ class Significance {
   bool MayHaveBodyEnds(double radius) const;
   // Whether the next point of a path lies in the ball of a branch other than those at the junction
   // from which the path comes (BallIndex). Needs: the path begins with the junction.
-  bool IsCovered(const ThinSet& set, std::span<const LatticePoint> path, LatticePoint next);
+  // `radius`: that of the next point, or more.
+  bool IsCovered(const ThinSet& set, std::span<const LatticePoint> path, LatticePoint next,
+                 double radius);
   // The significance of a path with two ends: how far its two halves stick out of the ball at the
   // deepest point, minus one step of the surface, in radii of that ball. The width does not count,
   // since a flat object has a curve. `ways`: both from the deepest point to an end.

@@ -324,7 +324,8 @@ class TipPlacer {
   }
 
   bool IsInBallOfAnother(LatticePoint p) const {
-    return junction_.has_value() && balls_.IsCovered(p, set_.Between(p, *junction_), set_);
+    return junction_.has_value() &&
+           balls_.IsCovered(p, depth_.At(p), set_.Between(p, *junction_), set_);
   }
 
   // Its radius is measured later, since most points are removed again.

@@ -4,9 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <functional>
+#include <numbers>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "client/export/branch_table.h"
 #include "client/export/glb.h"
@@ -17,6 +21,7 @@
 #include "client/export/swc.h"
 #include "client/export/vtp.h"
 #include "core/pipeline/skeletonize.h"
+#include "core/pruning/ball_index.h"
 
 namespace {
 uint64_t blocks = 0;
@@ -160,6 +165,33 @@ TEST(LinearGrowth, Isthmuses) {
   options.thinning.kind = SkeletonKind::kIsthmusCurve;
   ExpectLinear(Net(2), options);
 }
+
+// Curves to spines all over a ball, as dense on balls of any size, and how much work it is to find
+// out whether the tip of one of them is covered.
+uint64_t WorkForTip(double ball) {
+  constexpr double kSpine = 3, kLength = 20, kSpacing = 16;
+  const auto spines = static_cast<int>(4 * std::numbers::pi * std::pow(ball / kSpacing, 2));
+  const auto middle = static_cast<int32_t>(ball + kLength);
+  std::vector<LatticePoint> points;
+  std::vector<float> radii;
+  for (int n = 0; n < spines; ++n) {
+    const double height = 1 - (2 * n + 1.0) / spines, across = std::sqrt(1 - height * height);
+    const double turn = n * std::numbers::pi * (3 - std::sqrt(5.0));
+    for (double out = kSpacing; out < ball + kLength; out += 2) {
+      const auto at = [&](double way) { return middle + static_cast<int32_t>(out / 2 * way) * 2; };
+      points.push_back({at(across * std::cos(turn)), at(across * std::sin(turn)), at(height)});
+      radii.push_back(static_cast<float>(std::max(ball - out, kSpine)));
+    }
+  }
+  const LatticePoint tip = points.back();
+  ThinSet set({VolumeOfPoints({}), {}});
+  for (size_t n = 0; n < points.size(); ++n) set.Add(points[n], radii[n]);
+  BallIndex index(set, kIsotropic);
+  index.SetOwn(std::span(points).last(points.size() / static_cast<size_t>(spines)));
+  return WorkOf([&] { EXPECT_FALSE(index.IsCovered(tip, kSpine, ball, set)); });
+}
+
+TEST(LinearGrowth, CoverOfTips) { EXPECT_LT(WorkForTip(240), 2 * WorkForTip(60)); }
 
 }  // namespace
 }  // namespace bccskel

@@ -1,7 +1,8 @@
 #include "core/pruning/ball_index.h"
 
 #include <algorithm>
-#include <cmath>
+#include <iterator>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -24,12 +25,18 @@ TEST(BallIndex, CoversWhatSomeBallOfAnotherBranchCovers) {
   std::mt19937 random(3);
   const Volume thin = VolumeOfPoints(test::RandomBlob(2, {30, 20, 20}, 2, 5));
   std::vector<LatticePoint> points = thin.SortedPoints();
-  std::ranges::shuffle(points, random);
-  std::vector<float> radii(points.size());
-  for (float& radius : radii) {
-    radius = std::exp2(std::uniform_real_distribution<float>(-1, 4)(random));
-  }
+  // Distances to some of the points, as if they were background.
+  std::vector<LatticePoint> background;
+  std::ranges::sample(points, std::back_inserter(background), 8, random);
+  const auto radius_at = [&](LatticePoint p) {
+    double least = std::numeric_limits<double>::infinity();
+    for (LatticePoint q : background) least = std::min(least, StraightDistance(p, q, kIsotropic));
+    return static_cast<float>(least);
+  };
+  std::vector<float> radii;
+  for (LatticePoint p : points) radii.push_back(radius_at(p));
   ThinSet set({thin, radii});
+  std::ranges::shuffle(points, random);
   BallIndex index(set, kIsotropic);
   size_t covered = 0;
   for (size_t n = 0; n + 20 < points.size(); n += 20) {
@@ -37,7 +44,7 @@ TEST(BallIndex, CoversWhatSomeBallOfAnotherBranchCovers) {
                                         points.begin() + static_cast<std::ptrdiff_t>(n + 20));
     index.SetOwn(own);
     for (const double way : {1.0, 3.0, 9.0, 40.0}) {
-      const bool is_covered = index.IsCovered(own[0], way, set);
+      const bool is_covered = index.IsCovered(own[0], radius_at(own[0]), way, set);
       ASSERT_EQ(is_covered, IsCoveredBySome(own[0], way, set, points, own)) << n << " " << way;
       covered += is_covered ? 1 : 0;
     }
