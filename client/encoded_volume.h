@@ -26,7 +26,7 @@ struct EncodedVolume {
 VolumeEncoding BestEncodingOf(const Volume& volume);
 
 // Errors: INVALID_ARGUMENT, CANCELLED, and those of the encoder's library.
-// Needs:  kBricks, kOpenExr or, which states no placement, kRawPlanes.
+// Needs:  kBricks, kOpenExr or kRawPlanes; the last does not store the placement.
 absl::StatusOr<EncodedVolume> EncodeForSending(const Volume& volume, VolumeEncoding encoding,
                                                const std::stop_token& stop);
 

@@ -40,8 +40,8 @@ absl::Status CheckAddress(const std::string& address, Encryption encryption);
 absl::StatusOr<std::string> TokenToSend(std::string_view token);
 
 // Errors: those of CheckAddress() and TokenToSend(); FAILED_PRECONDITION for a token that would
-// cross a network in the clear;
-//         INVALID_ARGUMENT for a certificate without a key or TLS, or a key without a certificate.
+//         cross a network unencrypted; INVALID_ARGUMENT for a certificate without a key or without
+//         TLS, or a key without a certificate.
 absl::Status CheckEndpoint(const Endpoint& endpoint);
 
 }  // namespace bccskel::client

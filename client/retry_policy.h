@@ -12,7 +12,7 @@
 namespace bccskel::client {
 
 // Retries only UNAVAILABLE, with exponential backoff. A server that names a delay (RetryInfo) is
-// alive, so retries go on until the deadline; otherwise there are `max_attempts` attempts.
+// alive, so retries continue until the deadline; otherwise there are `max_attempts` attempts.
 struct RetryPolicy {
   int max_attempts = 5;
   std::chrono::milliseconds first_pause{100};

@@ -20,7 +20,7 @@ namespace bccskel::exporting {
 //   tortuosity                          their ratio; empty where the nodes are one place
 //   mean_radius, min_radius, max_radius
 //   coord_src_x .. coord_dst_z          places of the nodes
-//   pruning_level                       empty for branches that never go
+//   pruning_level                       empty for branches that are never pruned
 //   generation, strahler                with an order of trees; empty where an edge closes a loop
 // World coordinates and units. Isolated nodes and closed surfaces have no row.
 std::string BranchTableText(const SkeletonGraph& graph, const GraphContext& context = {});

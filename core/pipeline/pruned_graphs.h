@@ -16,10 +16,10 @@ using OnPrunedGraph = std::function<void(double, const SkeletonGraph&)>;
 // Does:  prunes the graph of a result further, level by level of its edges, and calls `visit` for
 //        each level in ascending order. Branches are removed as by Prune(), then the points are
 //        traced and junctions merged as for any result, so nodes and edges are those of another run
-//        with that threshold. Tips do not move. Where another run moves one, widths of limbs may
-//        differ so little that junctions at the edge of their reach are merged in only one of the
-//        two. If tracing for every level would take more than `most_points` points in total, levels
-//        below the 10 largest are visited in equal steps.
+//        with that threshold. Tips do not move. Where another run moves a tip, the widths of limbs
+//        may differ slightly between the two, so a junction at the edge of its reach may be merged
+//        in only one of them. If tracing every level would take more than `most_points` points in
+//        total, levels below the 10 largest are visited in equal steps.
 // Shapes: the graph of a result, as returned by MergeJunctions() with `junction_reach`. Visited
 //         graphs have the same placement, and the births and shifts of their points.
 // Errors: those of the context and of Volume::Create().

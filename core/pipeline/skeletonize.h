@@ -40,8 +40,8 @@ int32_t CellsPerVoxel(ObjectSource source);
 enum class Border : uint8_t {
   kEnds,       // background: the object ends there
   kContinues,  // unknown: a limb that is cut off there runs straight to the border
-  // As kContinues beyond both faces of an image of one slice, background beyond the others: the
-  // meaning of kEnds for such an image. Stated by results.
+  // As kContinues beyond both faces of an image of one slice, background beyond its other borders:
+  // what kEnds means for such an image. Only results state it.
   kContinuesAcrossSlice,
 };
 
@@ -56,7 +56,7 @@ struct SkeletonizeOptions {
   PruningOptions pruning = {};
   ObjectSource source = ObjectSource::kPoints;
   // The number of slabs into which the voxels of a mask were cut along x, y and z because they were
-  // long: noise of the mask is longer than the lattice suggests by this factor. 1 to 8.
+  // long. The noise of the mask is longer by this factor than the lattice suggests. 1 to 8.
   std::array<int32_t, 3> voxel_slabs = {1, 1, 1};
   // Merges junctions within this many radii of each other; 0 merges none. Only for graphs of
   // curves.

@@ -16,10 +16,10 @@ namespace bccskel {
 // one.
 inline constexpr uint64_t kBytesPerThinPoint = 576;
 
-// The axis along which the mask of an object has a single slice, as that of a 2-D image: the object
-// continues beyond both faces across it, whatever SkeletonizeOptions::border is, since its shape is
-// that in the slice. No value for masks of one row, and for objects that are not masks. The lattice
-// does not show it for samplings with several cells per voxel.
+// The axis along which the mask of an object has a single slice, as for a 2-D image. Along this
+// axis the object continues beyond both faces, regardless of SkeletonizeOptions::border, since only
+// its shape within the slice matters. No value for masks of one row, for objects that are not
+// masks, and for samplings with several cells per voxel, where the lattice does not show it.
 std::optional<size_t> AxisOfOneSlice(const LatticeExtent& extent,
                                      const SkeletonizeOptions& options);
 

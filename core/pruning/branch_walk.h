@@ -46,8 +46,8 @@ inline LatticePoint FollowCurve(const ThinSet& set, LatticePoint previous, Latti
   return p;
 }
 
-// A cavity leaves a whole surface as one cluster; what lies this far from its first point says
-// nothing about that.
+// ClusterOf() stops at this size: a cavity leaves a whole surface as one cluster, whose far points
+// say nothing about the first.
 inline constexpr size_t kMostClusterPoints = 64;
 
 // The junction point and those connected to it by points with three or more neighbors.

@@ -20,10 +20,10 @@ namespace bccskel {
 // within the sheet, plays the role of the radius there. README.md of this folder gives the reasons.
 // Does:  walks along the middle of the sheet from one W before the last place that is as wide as
 //        any. The end is the place with the largest sum of W and 0.85 of the distance walked, minus
-//        the distance beside the way straight on (limb_anchor.h). Where the limb cannot grow along
-//        this walk, its end is the place of its path with the largest W plus 0.75 of the distance
-//        along the limb minus 0.4 of the distance aside. The removed part lies within 1.75 W + 6
-//        units of the end, and the limb before it is at least 0.3 W long.
+//        the distance from the straight continuation (WayOn in limb_anchor.h). Where the limb
+//        cannot grow along this walk, its end is the place of its path with the largest W plus 0.75
+//        of the distance along the limb minus 0.4 of the sideways distance. The removed part lies
+//        within 1.75 W + 6 units of the end, and the limb before it is at least 0.3 W long.
 // Threads: one thread per instance.
 class FlatEnd {
  public:
@@ -62,7 +62,7 @@ class FlatEnd {
     double width = 0;  // W
     double ahead = 0;  // distance to the rim
   };
-  // `straight`: the limb is long enough to show its way.
+  // `straight`: the limb is straight for long enough to show its direction.
   std::vector<Coordinates> MiddleFrom(Walker walker, double widest, double longest, bool straight);
   size_t BestOf(std::span<const Coordinates> places, std::span<const double> widths,
                 const std::optional<Coordinates>& way) const;

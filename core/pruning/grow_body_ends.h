@@ -13,9 +13,10 @@ namespace bccskel {
 // Adds the ends of bodies that thinning left out. Where the distance to the background falls by
 // more than about 0.25 per unit toward the end of a body, thinning keeps no curve. Without limbs,
 // tips grow there (PlaceTips()); where thin limbs leave the body before its end, its curve turns
-// into them and has no tip. Does:  at each junction, follows the ridge of the depths straight on
-// from the body. What it finds
-//        stays as a branch if it is free of the others and significant (Significance::OfBodyEnd()).
+// into them and has no tip.
+// Does:  at each junction, follows the ridge of the depths straight on from the body. The points
+//        found stay as a branch if they lie in no other branch's ball and are significant
+//        (Significance::OfBodyEnd()).
 // Why the topology stays: each point touches the set only at the point before it.
 // Needs: `radius` belongs to the object, `depth` to the object or to it with points beyond its
 //        border.

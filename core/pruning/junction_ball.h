@@ -10,8 +10,9 @@
 
 namespace bccskel {
 
-// The part of a skeleton around a junction, and where it leaves the ball there. Near the center all
-// branches are as thick as the ball, so they are compared at 0.8 of its radius.
+// The part of a skeleton around a junction, up to the exits: the points where it leaves the
+// junction's ball. Near the center all branches are as thick as the ball, so exits lie at 0.8 of
+// its radius, where branches can be compared.
 class JunctionBall {
  public:
   struct Visited {
@@ -43,8 +44,8 @@ class JunctionBall {
   size_t body_ = 0;
 };
 
-// Whether a branch is an end of the body itself, which thin limbs leave before it, such as a snout
-// beyond two ears: except for the body, nothing that leaves the ball at its junction is as thick.
+// Whether a branch is an end of the body itself, beyond thinner limbs, such as a snout beyond two
+// ears: except for the body, no other branch that leaves the ball at the junction is as thick.
 // Needs: the branch has a junction.
 bool IsBodyEnd(const ThinSet& set, const FreeBranch& branch);
 

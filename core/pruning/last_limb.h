@@ -24,7 +24,8 @@ class LastLimb {
   // of `set` whose last point is an end; `first` is a position in it.
   size_t BeginIn(const ThinSet& set, std::span<const LatticePoint> path, size_t first);
 
-  // Of the path as a branch of its first point. Needs: as above; at least two points.
+  // The significance of the path as a branch that begins at its first point. Needs: as above; at
+  // least two points.
   double SignificanceOf(const ThinSet& set, std::span<const LatticePoint> path);
 
  private:

@@ -14,14 +14,14 @@
 
 namespace bccskel {
 
-// A limb shows its way if it is so many radii long.
+// The least length, in radii, from which a limb shows its direction.
 inline constexpr double kLeastWayRadii = 0.5;
 
-// Placing a tip removes at most a path into a cap or a corner: so many radii plus lattice units.
+// Placing a tip removes at most a path into a cap or a corner: this many radii plus lattice units.
 // The corners of a bar with three equal sides are sqrt(5) radii away.
 inline constexpr double kCutRadii = 2.3;
 inline constexpr double kCutMargin = 6;
-// Where the radius falls by less per unit, the path certainly follows a ridge.
+// Where the radius falls by less than this per unit, the path certainly follows a ridge.
 inline constexpr double kRidgeSlope = 0.3;
 // Least distance from the anchor to the point that gives the limb its direction, in sampling steps.
 inline constexpr double kLeastAim = 4;
@@ -36,29 +36,31 @@ LatticePoint TakeAnchor(const ThinSet& set, double step, FreeBranch& branch);
 // The direction, of length 1, of an arc through the points of a limb, `ahead` units behind the last
 // of them: there a limb cut flat has its face. The arc is the parabola of least squares. None if
 // the points lie off it by more than `most_off` of its height (root mean square): then they are
-// straight but for the lattice and noise, or form no arc.
+// straight except for noise and the steps of the lattice, or form no arc.
 // Shapes: `ahead` is in lattice units.
 std::optional<Coordinates> DirectionOnArc(const ThinSet& set, std::span<const LatticePoint> points,
                                           double ahead, double most_off);
 
 // The corner of a limb cut at a slant of up to 40 degrees lies no farther from the end of its ridge
-// than so many radii there plus kCutMargin.
+// than this many radii there plus kCutMargin.
 inline constexpr double kCornerRadii = 2.4;
 
-// The way straight on from the end of a limb's ridge. All lengths are in lattice units.
+// The straight continuation of a limb from the end of its ridge. All lengths are in lattice units.
 struct WayOn {
   Coordinates way = {};                                   // of length 1
-  double free = std::numeric_limits<double>::infinity();  // beside it, without penalty
+  double free = std::numeric_limits<double>::infinity();  // distance from it without penalty
 
-  // How far a place, if ahead, lies beside the way, beyond what is free. The corner of a limb cut
-  // at a slant lies as far beside it as the limb is thick. `to`: from the end of the ridge.
+  // The distance of a place from the continuation, less `free`, at least 0; 0 for places behind the
+  // end of the ridge. The corner of a limb cut at a slant lies as far off as the limb is thick.
+  // `to`: from the end of the ridge.
   double Aside(const Coordinates& to) const;
 };
 // The free distance is a quarter of the radius at the end of the ridge plus a unit. `way`: of any
 // length but 0.
 WayOn StraightOn(const Coordinates& way, double radius);
-// As the last two radii of the path lead, at least four steps; the way from the anchor if the path
-// is shorter. Without a penalty if that is less than half the radius.
+// The continuation in the direction of the last two radii of the path, at least four steps; in the
+// direction from the anchor if the path is shorter. Without a penalty if even that is shorter than
+// half the radius.
 // Shapes: `path` comes from `anchor`, which is not part of it, and ends where the ridge ends;
 //         `step` as above.
 WayOn WayOnFrom(const ThinSet& set, double step, LatticePoint anchor,

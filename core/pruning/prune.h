@@ -34,7 +34,7 @@ enum class PruningRule : uint8_t {
 // Default threshold of kSignificance, in half-widths.
 inline constexpr double kDefaultSignificance = 0.45;
 
-// Whether ends are moved to where the ridge of the distances ends.
+// Whether tips are moved to the end of the ridge of the distances.
 enum class TipPlacement : uint8_t { kRidge, kAsThinned };
 
 struct PruningOptions {

@@ -23,25 +23,24 @@
 
 namespace bccskel {
 
-// Tells limbs from bumps, ribs and strands by how far they stick out, in half-widths of the object.
-// README.md of this folder gives the steps, the constants and the reasons.
+// Distinguishes limbs from bumps, ribs and strands by how far they stick out, in half-widths of the
+// object. README.md of this folder gives the steps, the constants and the reasons.
 // Does:  extends the branch beyond its end where that may matter (TipExtender,
 //        ExtendAcrossBorder()) and finds its run, the part from q to p with the largest
 //        (elongation - noise) / D(q). The elongation is |p - q| - 2 (D(q) - D(p)), D the radius, on
 //        rough surfaces of voxels without pits (FirmDepth). The significance is sqrt(elongation^2 -
-//        (noise + 2)^2) / (D(q) + 2.2 (H - D(q))) times the share of the run outside 0.9 of the
-//        balls of other branches. H is the half-width of the object across the branch. In walls,
-//        lines across the branch follow the wall, and the fall of the inscribed circle's radius may
-//        replace that of D. The best run of the later half of a run is evaluated in the same way,
-//        and so on, and so is the best run before it; the largest result counts.
-//        The end of a body that thin limbs leave before it has a significance of its own
-//        (OfBodyEnd()), if that is larger.
-// The significance is a ratio of lengths of the shape. Only the noise depends on the sampling, so
-// it is the same at any resolution and in any pose.
-// Cost:  48 points of the branch for each of one to several runs. For a run that may be the best,
-// 176
-//        rays if it sticks out at all, up to 396 if the branch may stay and is not round, and in a
-//        wall up to 198 more that follow it.
+//        (noise + 2)^2) / (D(q) + 2.2 w) times the share of the run outside 0.9 of the balls of
+//        other branches. w is the median of H - D along the run, where H is the half-width of the
+//        object across the branch. In walls, lines across the branch follow the wall, and 0.4 of
+//        the fall of the inscribed circle's radius replaces 2 (D(q) - D(p)) if it is larger. The
+//        best run of the later half of a run is evaluated in the same way, and so on, and so is the
+//        best run before it; the largest result counts. The end of a body that thin limbs leave
+//        before it has a significance of its own (OfBodyEnd()), which counts if it is larger.
+// Why:   the significance is a ratio of lengths of the shape, in which only the noise depends on
+//        the sampling. So it is the same at any resolution and in any pose.
+// Cost:  48 points of the branch for each of its runs, one or several. For a run that may be the
+//        best, 176 rays if it sticks out at all, up to 396 if the branch may stay and is not round,
+//        and in a wall up to 198 more that follow it.
 // Threads: one thread per instance; LookAhead() uses the context's.
 class Significance {
  public:
@@ -50,9 +49,9 @@ class Significance {
 
   // Needs: `object` outlives this; `noise` is that of its surface. `extender`, of the same object,
   //        extends branches beyond the end that thinning gave them; none: they end there.
-  //        `firm_depth`, of the same object, measures radii without pits as far as the surface is
-  //        rough; none: radii as they are. `border` of the image, where limbs that it cuts off are
-  //        extended.
+  //        `firm_depth`, of the same object, measures radii without pits, in proportion to the
+  //        roughness of the surface; none: radii as they are. `border`: of the image; limbs that it
+  //        cuts off are extended.
   Significance(const Volume& object, const SurfaceNoise& noise,
                std::optional<TipExtender> extender = std::nullopt,
                std::optional<FirmDepth> firm_depth = std::nullopt,
@@ -62,10 +61,10 @@ class Significance {
   // Needs: the branch belongs to `set`, whose points are points of the object, and has a junction.
   //        All calls pass the same set; its points may be removed, but their radii never change.
   double Of(const ThinSet& set, const FreeBranch& branch);
-  // The significance of a branch as the end of a body (IsBodyEnd()), which Of() does not fall
-  // below: how far it sticks out of the ball at its junction, relative to that ball's radius and
-  // the width, as above. -infinity if it is none, or the ball is too small, or the value is at
-  // most `least` or 0.2. Needs: as Of().
+  // The significance of a branch as the end of a body (IsBodyEnd()), a lower bound of Of(): how far
+  // it sticks out of the ball at its junction, relative to that ball's radius and the width, as
+  // above. -infinity if the branch is not the end of a body, the ball is too small, or the value is
+  // at most `least` or 0.2. Needs: as Of().
   double OfBodyEnd(const ThinSet& set, const FreeBranch& branch,
                    double least = -std::numeric_limits<double>::infinity());
   // Whether a ball of this radius at a junction is large enough, compared with the noise.
@@ -77,7 +76,7 @@ class Significance {
                  double radius);
   // The significance of a path with two ends: how far its two halves stick out of the ball at the
   // deepest point, minus one step of the surface, in radii of that ball. The width does not count,
-  // since a flat object has a curve. `ways`: both from the deepest point to an end.
+  // since a flat object has a curve. `ways`: each leads from the deepest point to an end.
   double OfPath(const ThinSet& set, std::array<BranchPath, 2> ways) const;
   // Measures branches on the context's threads and caches the results for Of(). Leaves some out if
   // the context requests a stop. Needs: as Of().
@@ -100,8 +99,8 @@ class Significance {
     size_t root, tip;
     Coordinates way;  // from the root to the tip
     double length;    // of `way`
-    double wider;     // than thick: by how much the object is, the median from the root on
-    double bound;     // of the value, whatever the walls
+    double wider;     // the median of half-width - radius from the root on
+    double bound;     // upper bound of the value, with or without walls
   };
 
   Verdict Look(const ThinSet& set, const FreeBranch& branch);

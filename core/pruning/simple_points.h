@@ -9,8 +9,8 @@
 
 namespace bccskel {
 
-// Removes points that are simple and no ends, shallow ones first, equally deep ones in lattice
-// order: first those in `from`, then their neighbors, and so on. Points of `keep` stay.
+// Removes simple points that are not ends, shallow ones first, equally deep ones in lattice order:
+// first those in `from`, then their neighbors, and so on. Points of `keep` stay.
 // Returns: the removed points in order.
 std::vector<LatticePoint> RemoveSimplePoints(ThinSet& set, const std::set<LatticePoint>& from,
                                              const PointSet& keep, StopPoll* poll = nullptr);

@@ -19,14 +19,14 @@ double Roughness(const Volume& object);
 
 // The noise allowance: what sampling may add to how far a branch sticks out.
 // Why it depends on the branch: noise makes rows of bumps that are as thin as one step of the
-// surface. A thicker branch is a limb, and noise only moves where it begins and ends.
+// surface. A thicker branch is a limb; noise only moves its two ends.
 struct SurfaceNoise {
   double step = 1;       // a step of the surface, lattice units
   double roughness = 0;  // 0: smooth, 1: rough
   double thin = 0;       // allowance for radii of 1.5 steps or less, lattice units
   double thick = 0;      // allowance for radii of three steps or more
-  // The edges of a voxel divided by its shortest edge; steps of the surface grow by this factor
-  // along each axis.
+  // The edges of a voxel divided by its shortest edge: the factors by which steps of the surface
+  // grow along each axis.
   AxisScale edges = {1, 1, 1};
 
   // The allowance for a branch with this radius where it begins, along the shortest edge of a
@@ -46,8 +46,8 @@ struct SurfaceNoise {
 };
 
 // Measures the allowance: at least one step of the surface and 1.5 units where the surface is
-// smooth, three steps where it is rough; for thick branches of voxels always the former, since
-// Significance ignores their pits.
+// smooth, three steps where it is rough; for thick branches of voxels always as for a smooth
+// surface, since Significance ignores their pits.
 // Needs: `step`, the length of a step of the surface: 1, or the shortest edge of a voxel; > 0.
 //        `slabs`: into how many each voxel was cut along x, y and z.
 SurfaceNoise SurfaceNoiseOf(const Volume& object, double step,

@@ -27,8 +27,9 @@ class TipSteps {
   TipSteps(const ThinSet& set, const Volume& object, FirmDepth& depth)
       : set_(set), bricks_(object), depth_(depth) {}
 
-  // The next object point, the first of the best, by the rise of the depth and how straight on it
-  // lies. Its only neighbor in the set is the tip, and it is farther from the anchor.
+  // The next object point: the one with the best score, the first on ties. The score adds the rise
+  // of the depth and how straight ahead the point lies. The point's only neighbor in the set is the
+  // tip, and it is farther from the anchor than the tip.
   // Needs: a path of at least one point that comes from the anchor, which is not part of it.
   std::optional<LatticePoint> Next(std::span<const LatticePoint> path, LatticePoint anchor);
 
@@ -38,7 +39,7 @@ class TipSteps {
     size_t rank = 0;
     double length = 0;
     double straightness = 0;  // its part of the score
-    double score_most = 0;    // the score is no more
+    double score_most = 0;    // upper bound of the score
   };
 
   void Find(std::span<const LatticePoint> path, LatticePoint anchor, double depth);

@@ -13,16 +13,15 @@
 namespace bccskel {
 
 // Cuts every branch back, or extends it, to the end of its limb: the place with the largest sum of
-// the distance to the background and 0.75 of the distance along the limb minus that beside its
-// way (README.md of this folder); for flat limbs, see flat_end.h. Distances are measured without
-// pits, and no tip lies on a bump (Denoise()). A tip is never cut back beyond where its
-// limb begins (LargestRun(), LastLimb) or turns. It grows by at most twice the radius there plus 6
-// units (once where steps along an axis are twice as long as others), and not into the ball of
-// another branch. Points of `keep` are not cut off. What turns aside at the ends of limbs that are
-// not flat is removed first (TurnedTips).
-// Needs:  `radius` belongs to `object`; `searching` searches, and `depth` belongs to the object or
-// to
-//         it with points beyond its border, into which no tip grows. `noise` is that of its
+// the distance to the background and 0.75 of the distance along the limb, minus the distance from
+// the limb's straight continuation (README.md of this folder); for flat limbs, see flat_end.h.
+// Distances to the background are measured without pits, and no tip lies on a bump. A tip is never
+// cut back beyond the place where its limb begins (LargestRun(), LastLimb) or turns. It grows by at
+// most 6 units plus twice the radius there (once the radius where steps along one axis are at least
+// twice as long as along another), and not into the ball of another branch. Points of `keep` are
+// not cut off. Ends that turn aside are removed first from limbs that are not flat (TurnedTips).
+// Needs:  `radius` belongs to `object`; `searching` searches; `depth` belongs to the object, or to
+//         the object with points beyond its border, into which no tip grows; `noise` is that of its
 //         surface.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
 absl::Status PlaceTips(ThinSet& set, const Volume& object, const ExactRadius& radius,

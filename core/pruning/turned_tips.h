@@ -11,14 +11,15 @@
 
 namespace bccskel {
 
-// Ends of limbs that turn aside, such as into a corner of a screw's head or into one ear of a bear.
+// Ends of branches that turn away from the direction of their limbs, such as into a corner of a
+// screw's head or into one ear of a bear.
 // Does:  If the end of a limb forks into two spurious branches and pruning removes one, the other
 //        becomes the end of the limb. So this records the other before the removal, if
 //        - it leaves the direction of the limb by 40 to 90 degrees: a smaller angle continues the
 //          limb, a larger one belongs to another limb;
 //        - it is at most 1.6 radii of the fork long, so it lies in the cap of the limb;
-//        - the limb before it is a curve at least two radii long and, if that curve has a free end,
-//          too, is worth at least twice as much.
+//        - the limb before it is a curve at least two radii long and, if that curve has a free end
+//          as well, is worth at least twice as much.
 // Why it is right: nothing is removed here, and recorded points form a path from an end.
 class TurnedTips {
  public:

@@ -25,9 +25,9 @@ struct MeanRange {
 MeanRange RangeOfMean(size_t size, size_t n, CurveShape shape);
 
 // The mean of value n of a curve and up to four values on either side, the two farthest of which
-// count half: so it removes zigzag of two and four points, which thinning leaves where the middle
-// of a limb lies between lattice points. The first and last value of an open curve do not change.
-// `value_at(n)` returns a value.
+// count half. So it removes zigzags with a period of two or four points, which thinning leaves
+// where the middle of a limb lies between lattice points. The first and last value of an open curve
+// do not change. `value_at(n)` returns a value.
 template <typename ValueAt>
 Coordinates MeanAt(ValueAt value_at, size_t size, size_t n, CurveShape shape) {
   const MeanRange range = RangeOfMean(size, n, shape);

@@ -22,8 +22,8 @@ enum class StubblePolicy : uint8_t {
   // object neighbors at the neighbor q, and rank r among q's end points in neighbor bit order,
   // remove iff n > 2 and r < n - 2.
   kKeepTwo,
-  // Remove it iff n > 2, as the paper writes. Several stubble points at one q can go together and
-  // leave q an end point.
+  // Remove it iff n > 2, as the paper writes. Several stubble points at one q can be removed
+  // together and leave q an end point.
   kLiteral,
   // Keep it: the widely ramified skeleton of Fig. 8.
   kNone,

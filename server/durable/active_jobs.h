@@ -97,7 +97,7 @@ class ActiveJobs {
   };
   // Whether TakeNext() would yield a job.
   bool HasNext(const TenantTable& tenants, int max_runs);
-  // Whether jobs wait, which time alone may let begin.
+  // Whether jobs wait. The passing of time alone may let one of them begin.
   bool HasWaiting() const { return !queue_.empty(); }
   // nullopt if no job waits or there is no place now.
   std::optional<Turn> TakeNext(const TenantTable& tenants, int max_runs);

@@ -42,13 +42,14 @@ namespace bccskel::server {
 // OK is on disk. Every function returns at once; `done` is called exactly once, on a thread of
 // DurableJobs, and must not block. Names are looked up within the tenant: those of others are
 // NOT_FOUND.
-// Errors of all: NOT_FOUND for names; RESOURCE_EXHAUSTED when the disk is full; UNAVAILABLE when
-// the server is draining; INTERNAL. Threads: safe.
+// Errors of all functions: NOT_FOUND for names; RESOURCE_EXHAUSTED when the disk is full;
+//                          UNAVAILABLE when the server is draining; INTERNAL.
+// Threads: safe.
 //
 // State in memory, except for uploads, belongs to the loop: the thread of the job store. An
-// operation is a flow. It waits for changes, the only code that writes the store, and resumes on
-// the loop once they are on disk; only there it updates the state in memory. Flows move to other
-// threads to read and write files.
+// operation is a flow (flow.h). Only changes (Commit()) write the store. A flow waits for its
+// changes and resumes on the loop once they are on disk; only there it updates the state in memory.
+// Flows move to other threads to read and write files.
 //
 // Its parts: UploadTable and ActiveJobs hold what is unfinished, JobJournal changes states,
 // WatchBoard distributes events, FolderFiles keeps files and tables consistent, FleetMembers

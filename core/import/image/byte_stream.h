@@ -15,7 +15,7 @@ namespace bccskel {
 
 enum class Compression {
   kNone,
-  kDeflate,  // gzip or zlib, told apart by the first bytes; also several gzip members in a row
+  kDeflate,  // gzip or zlib, distinguished by the first bytes; also several gzip members in a row
   kZip,      // a member of a zip archive, stored or deflated; its number stands for an offset
 };
 
