@@ -206,7 +206,7 @@ void AddBenchMethod(CLI::App& command, ThinningMethod& method,
   AddChoice<ThinningMethod>(command, "--method", method, description, Choices(kMethodWords));
   AddChoice<DistanceKind>(
       command, "--distance", [&distance](DistanceKind chosen) { distance = chosen; },
-      "How distances are measured (default with symmetric euclidean, otherwise chamfer)",
+      "How distances are measured (default: euclidean with symmetric, otherwise chamfer)",
       Choices(kDistanceWords));
 }
 

@@ -31,7 +31,7 @@ ExitCode RunCommand(const Arguments& arguments, const std::stop_token& stop) {
         "a mesh needs less with smaller --points or a larger --spacing, an image with fewer voxels "
         "(crop it, or read a coarser --level)");
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "bccskel: error: failure of the system: %s\n", error.what());
+    std::fprintf(stderr, "bccskel: error: system error: %s\n", error.what());
     return ExitCode::kTooLarge;
   }
 }

@@ -51,12 +51,12 @@ void AddPicture(CLI::App& command, view::PictureOptions& picture) {
   command
       .add_option("--turn", picture.turn,
                   "Rotate the view to the right, starting in front of the broadest side (default "
-                  "30; of one slice 0)")
+                  "30; for one slice 0)")
       ->check(Within(-360, 360))
       ->option_text("DEGREES");
   command
       .add_option("--climb", picture.climb,
-                  "Raise the view above the object (default 15; of one slice 0)")
+                  "Raise the view above the object (default 15; for one slice 0)")
       ->check(Within(-360, 360))
       ->option_text("DEGREES");
 }
