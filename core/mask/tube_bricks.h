@@ -12,10 +12,10 @@ namespace bccskel {
 
 // Does:  turns the tubes of a mask into the bricks of the exact conversion. Odd points are the
 //        voxels, even points their corners. For (26, 6) a corner that touches the object belongs to
-//        it, unless along some axis the three consecutive slabs of 2 x 2 voxels below it, above it
-//        and next above are occupied, empty, occupied: such a corner and the one after it would be
-//        neighbors across a gap. For (6, 26) this rule gives the background, and the object is the
-//        rest. README.md has the proof.
+//        it, unless along some axis three consecutive slabs of 2 x 2 voxels (the one below it, the
+//        one above it and the next one) are occupied, empty and occupied: such a corner and the one
+//        after it would be neighbors across a gap. For (6, 26) this rule gives the background, and
+//        the object is the rest. README.md has the proof.
 // Cost:  64 voxels of x at a time, with about 20 word operations for a row of corners; four rows of
 //        16 bits make a word of a brick.
 class TubeBricks {

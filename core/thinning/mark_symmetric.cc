@@ -139,7 +139,7 @@ HWY_INLINE void AndEach(const Plane (&with)[14], Plane (&planes)[14]) {
   for (int n = 0; n < 14; ++n) planes[n] = And(planes[n], with[n]);
 }
 
-// The next pass revisits bricks where points were sent back.
+// The next pass revisits bricks where points were unmarked.
 HWY_INLINE void MarkDirtyIf(const Plane& sent_back, DirtyMask& brick) {
   brick = static_cast<DirtyMask>(brick | (IsEmpty(sent_back) ? 0 : kDirectionsDirty));
 }

@@ -20,12 +20,12 @@
 //   adjacent to all of them. Links are small. The common neighbors of a pair form a cycle of four
 //   (D6) or six (D8), and a part of a cycle is contractible iff it is one arc. A triple has two
 //   common neighbors, of which exactly one must be an object point. A quadruple has none and is
-//   always critical. Rule B sends back, from every critical clique in S, the point of highest
-//   priority: first for pairs, then for triples of the remaining points, then for quadruples of the
-//   points that still remain. The result has no critical clique.
+//   always critical. Rule B unmarks, in every critical clique in S, the point of highest priority:
+//   first for pairs, then for triples of the remaining points, then for quadruples of the points
+//   that still remain. The result has no critical clique.
 // Priorities are strict within a clique: depth in quarters of a lattice unit, and for equal depths
 // (x + y + z + pass) modulo 4, which differs between adjacent points. So the lowest point of S is
-// never sent back, and a pass that removes nothing had no simple points.
+// never unmarked, and a pass that removes nothing had no simple points.
 // Cost:  about 160 logic operations per brick for S and as many for cliques. In smooth objects
 //        every fifth brick has a critical pair, which takes 250 more to compare priorities, and
 //        every hundredth a critical triple.
@@ -58,7 +58,7 @@ struct RuleBView {
   const DepthPlanes* depth = nullptr;  // quarters of a lattice unit modulo 32
   // Whether points of a brick may be in critical cliques larger than pairs; rarely true.
   uint8_t* larger_cliques = nullptr;
-  DirtyMask* dirty = nullptr;  // bricks to visit again, since points were sent back
+  DirtyMask* dirty = nullptr;  // bricks to visit again, since points were unmarked
   int32_t pass = 0;
 };
 

@@ -21,13 +21,13 @@ constexpr EndPoints EndPointsOf(SkeletonKind kind) {
 }
 
 // Does:  one pass per cycle for all sides at once: finds the simple points, then in three steps
-//        sends some of them back so that the others can be removed together (rule B).
+//        unmarks some of them so that the others can be removed together (rule B).
 // Paper: the non-directional thinning of its outlook.
 // Why it is right: see mark_symmetric.h. A step needs the results of the previous step in the
 //   bricks around, so workers meet between steps. A brick in no list has no simple candidates: it
 //   had none when last visited, and neither it nor an adjacent brick has changed since.
 // Cost:  a brick is visited again only after it, or a brick on which it borders, has changed, or if
-//        some of its points were sent back.
+//        some of its points were unmarked.
 class SymmetricRule : public PassRule {
  public:
   // `depth` as from BuildDepths(). It and `state` must outlive the rule.
