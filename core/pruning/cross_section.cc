@@ -9,12 +9,12 @@
 namespace bccskel {
 namespace {
 
-constexpr double kRoundness = 1.5;  // half-width by radius: a plate is wider in one of eight lines
+constexpr double kRoundness = 1.5;  // half-width / radius; one of eight lines shows a plate
 constexpr double kRoundMargin = 1;
-constexpr double kWallFlatness = 2.5;  // half-width by radius: less is round
-constexpr double kWallMargin = 3;      // so are limbs as thick as the steps of the surface
-constexpr double kMostThick = 3;  // of a wall to either side, in radii: beyond, another wall begins
-constexpr double kLeastOn = 0.25;  // a line goes on in a wall by this at least, in radii
+constexpr double kWallFlatness = 2.5;  // half-width / radius: below this there is no wall
+constexpr double kWallMargin = 3;      // plus units: limbs as thick as surface steps are no walls
+constexpr double kMostThick = 3;   // half-thickness of a wall in radii: beyond, another wall begins
+constexpr double kLeastOn = 0.25;  // a line continues in a wall by at least this many radii
 
 // Half a turn in eight steps: cosine and sine.
 constexpr std::array<std::array<double, 2>, 8> kTurns = {{{1, 0},

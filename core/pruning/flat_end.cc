@@ -9,31 +9,31 @@
 namespace bccskel {
 namespace {
 
-constexpr double kWidthSlope = 0.75;  // of a place's merit, along the limb
-constexpr double kAside = 0.4;        // and across it: corners lie aside, points do not
-constexpr double kFlatness = 1.5;     // width by radius: less is round
-constexpr double kFlatMargin = 1.5;   // so are limbs as thick as the steps of the surface
-constexpr double kMostFlatness = 16;  // and no width is looked for beyond this, and 16 units
-constexpr double kMostMargin = 16;
-constexpr double kRoundRadii = 4;  // so far from the end a flat limb is wide, in radii
+constexpr double kWidthSlope = 0.75;  // weight of the distance along the limb in a merit
+constexpr double kAside = 0.4;        // weight of the sideways distance: corners lie sideways
+constexpr double kFlatness = 1.5;     // W / radius: below this a limb is round
+constexpr double kFlatMargin = 1.5;   // plus units: limbs as thick as surface steps are round
+constexpr double kMostFlatness = 16;  // W is measured up to this many radii
+constexpr double kMostMargin = 16;    // plus lattice units
+constexpr double kRoundRadii = 4;     // distance from the end, in radii, where a flat limb is wide
 constexpr double kMargin = 6;
 constexpr double kCutWidths = 1.75;
-constexpr double kAboutAsWide = 0.7;  // as the largest width: the end itself is narrow
+constexpr double kAboutAsWide = 0.7;  // share of the largest W: the end itself is narrow
 constexpr double kAsWide = 0.9;
 constexpr double kAsWideMargin = 1;
-constexpr double kLeastLimb = 0.3;  // of the largest width: the limb before its end
-constexpr double kLeastKept = 0.4;  // of the same, from where the limb begins: not walked again
-constexpr double kAimWidths = 2;    // the limb's direction is that of so much of it
+constexpr double kLeastLimb = 0.3;  // least length of the limb before its end, in the largest W
+constexpr double kLeastKept = 0.4;  // beginning of the limb, not walked again, in the largest W
+constexpr double kAimWidths = 2;    // length, in W, that gives the limb's direction
 constexpr double kLeastStride = 1;
-constexpr double kStride = 8;          // places in a width
+constexpr double kStride = 8;          // places per W
 constexpr size_t kNormalReach = 4;     // points on either side
-constexpr double kWalkWidths = 1;      // so long before its end the limb is walked along
-constexpr double kWalkSlope = 0.85;    // no corners, so more: leaves taper by up to this
+constexpr double kWalkWidths = 1;      // the walk begins this many W before the end
+constexpr double kWalkSlope = 0.85;    // walks enter no corners; leaves taper by up to this
 constexpr double kWalkStep = 2;        // lattice units, times CoarsenessOf()
-constexpr size_t kHeadingSteps = 12;   // the direction is that of the last steps,
-constexpr size_t kLeastHeading = 6;    // if there are at least this many
-constexpr double kMostWiden = 1.3;     // wider parts are not the limb
-constexpr double kLeastInPlane = 0.3;  // of a way of length 1
+constexpr size_t kHeadingSteps = 12;   // the direction is that of the last twelve steps,
+constexpr size_t kLeastHeading = 6;    // if there are at least six
+constexpr double kMostWiden = 1.3;     // parts wider by this factor are not the limb
+constexpr double kLeastInPlane = 0.3;  // least length of a direction within the sheet
 
 // Whether the limb is flat where it is about as wide as anywhere.
 bool IsFlat(std::span<const FlatEnd::Place> places, double widest) {

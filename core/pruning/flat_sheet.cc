@@ -6,12 +6,12 @@
 namespace bccskel {
 namespace {
 
-constexpr double kStep = 1.5;               // of a way, lattice units, times CoarsenessOf()
+constexpr double kStep = 1.5;               // along a line, in lattice units times CoarsenessOf()
 constexpr double kMostOff = 2;              // farther off lies another sheet
 constexpr double kThicknessStep = 0.5;      // lattice units
-constexpr double kMostSheetThick = 24;      // to either side
-constexpr double kLeastNormalCosine = 0.7;  // of the normal and the way to background beside it
-constexpr double kNormalWeight = 0.25;      // of a new normal
+constexpr double kMostSheetThick = 24;      // largest thickness to either side
+constexpr double kLeastNormalCosine = 0.7;  // between the normal and the nearest background
+constexpr double kNormalWeight = 0.25;      // weight of a new normal
 
 // Eighths of half a turn, from the first: cosine and sine.
 constexpr std::array<std::array<double, 2>, 8> kSpreadTurns = {{{1, 0},

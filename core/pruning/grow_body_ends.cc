@@ -15,15 +15,15 @@
 namespace bccskel {
 namespace {
 
-constexpr double kStart = 0.4;           // of the ball's radius: a body's end begins no farther off
-constexpr size_t kMostStarts = 16;       // points from which it may begin
-constexpr double kGrowth = 2.5;          // of the ball's radius, plus
-constexpr double kGrowthUnits = 6;       // so many: the longest end
-constexpr double kOnTheWay = 0.9;        // cosine: a limb that leads straight on continues the body
-constexpr double kBeside = 0.5;          // cosine: a limb in this cone must be
-constexpr double kThinnerBeside = 0.75;  // than the end
+constexpr double kStart = 0.4;  // largest distance of a start from the center, in the ball's radii
+constexpr size_t kMostStarts = 16;       // tried at a junction
+constexpr double kGrowth = 2.5;          // longest end, in radii of the ball
+constexpr double kGrowthUnits = 6;       // plus lattice units
+constexpr double kOnTheWay = 0.9;        // cosine: a limb this straight ahead continues the body
+constexpr double kBeside = 0.5;          // cosine: limbs in this cone must be thinner
+constexpr double kThinnerBeside = 0.75;  // their largest radius, in radii of the end
 constexpr double kStraight = 0.75;       // least cosine of the end at its exit
-constexpr double kLeastDepth = 0.35;     // there, in radii of the ball
+constexpr double kLeastDepth = 0.35;     // least depth there, in radii of the ball
 
 class BodyEnds {
  public:

@@ -7,9 +7,9 @@
 namespace bccskel {
 namespace {
 
-constexpr double kExit = 0.8;          // of the radius
-constexpr double kLeastRadius = 0.3;   // of a body's end at its exit, in radii of the ball
-constexpr double kThinnerLimb = 0.85;  // than the end: limbs that leave the body before it
+constexpr double kExit = 0.8;          // distance of exits from the center, in radii
+constexpr double kLeastRadius = 0.3;   // least radius of a body's end there, in the ball's radii
+constexpr double kThinnerLimb = 0.85;  // largest radius of the other limbs, in radii of the end
 constexpr double kMostPoints = 1024;   // a closed surface or dense hair fills the whole ball
 constexpr double kMostPerUnit = 8;     // of its radius; curves have one point per unit at most
 

@@ -10,7 +10,7 @@
 namespace bccskel {
 namespace {
 
-constexpr double kBead = 1.4;  // its radius, in radii of the limb
+constexpr double kBead = 1.4;  // least radius of a bead, in radii of the limb after it
 
 }  // namespace
 

@@ -6,17 +6,17 @@
 namespace bccskel {
 namespace {
 
-constexpr double kAnchorRadii = 4;    // how far back the anchor lies, in radii
-constexpr double kAnchorSteps = 5;    // and in steps
-constexpr double kStraightRadii = 2;  // what is shorter gives no direction, bent or not
-constexpr double kBendRadii = 0.35;   // a limb bends that leaves the straight way by so many radii
-constexpr double kBendMargin = 2;     // and lattice units
+constexpr double kAnchorRadii = 4;    // distance of the anchor from the end, in radii
+constexpr double kAnchorSteps = 5;    // plus steps
+constexpr double kStraightRadii = 2;  // shorter parts give no direction, bent or not
+constexpr double kBendRadii = 0.35;   // limbs that deviate more from a straight line bend, in radii
+constexpr double kBendMargin = 2;     // plus lattice units
 constexpr size_t kBendStride = 8;     // points between checks
 constexpr size_t kBendSamples = 16;
-constexpr size_t kLeastOnArc = 5;    // points
-constexpr double kWayRadii = 2;      // of the ridge, its last part shows how it leads on
-constexpr double kFreeRadii = 0.25;  // so far beside its way a tip is as good,
-constexpr double kFreeMargin = 1;    // and lattice units
+constexpr size_t kLeastOnArc = 5;  // points
+constexpr double kWayRadii = 2;    // length of the ridge's last part, which shows how it continues
+constexpr double kFreeRadii = 0.25;  // distance from the continuation without penalty, in radii
+constexpr double kFreeMargin = 1;    // plus lattice units
 
 // Position of the last point, within a cap at the end, up to which the radius certainly follows a
 // ridge: beyond it the path may turn into a corner. The end comes first.

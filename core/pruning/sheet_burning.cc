@@ -11,8 +11,8 @@
 namespace bccskel {
 namespace {
 
-constexpr double kSpeed = 0.8;  // of a ball's surface against the fire
-constexpr double kDetour = 1;   // what is later by this came by another way
+constexpr double kSpeed = 0.8;  // time that a fire takes per lattice unit
+constexpr double kDetour = 1;   // what arrives later by more than this came another way
 
 // The earliest first, of equally early ones in lattice order.
 using Turn = std::pair<double, PointIndex>;

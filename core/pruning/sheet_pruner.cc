@@ -128,8 +128,8 @@ class SheetPruner {
         set_.Points(), may_go, [&](PointIndex p) { return points_[p].radius; }, poll_);
   }
 
-  // Applies the slope rule for curves, with the place where the curve leaves the sheet as the
-  // junction. Keeps tunnels of twigs. Returns whether it removed any.
+  // Removes twigs whose balls extend beyond the ball at the foot by less than the margin, with
+  // distances counted half. Keeps tunnels of twigs. Returns whether it removed any.
   bool RemoveTwigs() {
     const TwigFinder finder(points_, set_.Points(), poll_);
     if (poll_.StoppedNow()) return false;

@@ -12,18 +12,18 @@
 namespace bccskel {
 namespace {
 
-constexpr double kWallSteepness = 0.4;  // of what its inscribed circle shrinks by
-constexpr double kWidthShare = 2.2;     // of what the object is wider than thick
-constexpr double kNoiseMargin = 2;      // lattice units more, as noise goes off the square
-constexpr double kSureRatio = 2;        // above, what lies beyond the end does not matter
-constexpr double kLeastRatio = 0.2;     // below, the width is not looked at: the branch is a bump
-constexpr double kLeastFine = 0.35;     // below, the value is rough
-constexpr size_t kRoots = 7;            // of the places, the first: there the limb may begin
-constexpr size_t kNearTip = 9;          // of the places
+constexpr double kWallSteepness = 0.4;  // weight of the inscribed circle's fall in a wall
+constexpr double kWidthShare = 2.2;     // weight of half-width - radius
+constexpr double kNoiseMargin = 2;      // units more, since squares are subtracted
+constexpr double kSureRatio = 2;        // above this, what lies beyond the end does not matter
+constexpr double kLeastRatio = 0.2;     // below this, the branch is a bump whatever its width
+constexpr double kLeastFine = 0.35;     // below this, a rough value suffices
+constexpr size_t kRoots = 7;            // the limb may begin at one of the first seven places
+constexpr size_t kNearTip = 9;          // a place near the tip
 constexpr double kLongestRay = 400;
-constexpr double kBulge = 1.2;       // its radius at the end, in radii where its branch begins
-constexpr double kInJunction = 0.9;  // of the ball there
-constexpr double kLeastBall = 2.5;   // radius, in noise: of a body whose end may count
+constexpr double kBulge = 1.2;       // least radius of a bulge at its end, in radii of the junction
+constexpr double kInJunction = 0.9;  // places nearer belong to the junction, in its radii
+constexpr double kLeastBall = 2.5;   // least radius of a body with ends, in noise and margin
 constexpr size_t kCoverSamples = 16;
 
 BranchPath PathOf(const ThinSet& set, const FreeBranch& branch) {
@@ -236,8 +236,8 @@ double Significance::ValueAtMost(const ThinSet& set, const BranchPath& path, con
   return most;
 }
 
-// Refining makes no section narrower, so the bounds hold. It stops when they say that the branch
-// goes: most branches of a plate are hair. Circles in walls are inscribed only where they may
+// Refining makes no section narrower, so the bounds hold. It stops when they show that the branch
+// is spurious, as most branches of a plate are. Circles in walls are inscribed only where they may
 // decide.
 double Significance::ValueOf(const ThinSet& set, const BranchPath& path, const Run& run,
                              double least) {

@@ -9,13 +9,13 @@
 namespace bccskel {
 namespace {
 
-constexpr size_t kAimPoints = 10;         // the way on is that of the last points
-constexpr double kLeastStepCosine = 0.4;  // cosine between it and a step
-constexpr double kAimWeight = 0.5;        // against the rise of the radius
-constexpr size_t kWayReach = 5;           // points on either side that give a path's way
+constexpr size_t kAimPoints = 10;         // the aim is the direction of the last ten points
+constexpr double kLeastStepCosine = 0.4;  // between the aim and a step
+constexpr double kAimWeight = 0.5;        // weight of that cosine against the rise of the radius
+constexpr size_t kWayReach = 5;           // points on either side that give a path's direction
 constexpr double kBorderMargin = 1;       // lattice units
-constexpr double kBorderCosine = 0.7;     // between the way and the outside
-constexpr double kRadiiBeyond = 2;
+constexpr double kBorderCosine = 0.7;  // least cosine between the path and the way out of the image
+constexpr double kRadiiBeyond = 2;     // length of the extension
 
 }  // namespace
 

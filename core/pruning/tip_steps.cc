@@ -7,9 +7,9 @@
 namespace bccskel {
 namespace {
 
-constexpr size_t kHeadingPoints = 10;  // whose direction is the way ahead
-constexpr double kLeastCosine = 0.4;   // between the way ahead and a step
-constexpr double kCosineWeight = 0.5;  // against the rise of the distance
+constexpr size_t kHeadingPoints = 10;  // the heading is the direction of the last ten points
+constexpr double kLeastCosine = 0.4;   // between the heading and a step
+constexpr double kCosineWeight = 0.5;  // weight of that cosine against the rise of the depth
 
 }  // namespace
 

@@ -21,22 +21,22 @@
 namespace bccskel {
 namespace {
 
-constexpr double kGainBySteps = 0.42;  // a tip farther out is better by so many surface steps
-constexpr double kGainByNoise = 0.06;  // and this share of the noise allowance, or noise made it
-constexpr double kAimRadii = 1.75;     // as kCutRadii, for the point that shows the direction
-constexpr double kHairLength = 6;  // in lattice units; longer ends of single points are thin limbs,
-constexpr double kHairRadii = 2;   // and what is longer by the limb's radius
-constexpr double kGrowthRadii = 2;   // of the limb's root: how far tips grow, as to a cone's point,
-constexpr double kGrowthMargin = 6;  // and lattice units
-constexpr double kLongStep = 2;  // on lattices with longer steps by one radius: caps are too coarse
-constexpr double kOffArc = 0.25;  // of its points from the arc of a bent limb, of its height
-constexpr double kOffArcAtRoot = kOffArc / 2;  // where the arc begins with the limb
-// Where the ridge goes on by so many radii and units beside the way straight on, the limb turns.
+constexpr double kGainBySteps = 0.42;  // a tip farther out must be better by so many surface steps
+constexpr double kGainByNoise = 0.06;  // plus this share of the noise allowance; less may be noise
+constexpr double kAimRadii = 1.75;     // like kCutRadii, for the point that shows the direction
+constexpr double kHairLength = 6;      // longest bumps in lattice units; longer ones are thin limbs
+constexpr double kHairRadii = 2;       // the same in radii of the limb
+constexpr double kGrowthRadii = 2;     // longest growth, in radii of the limb's root
+constexpr double kGrowthMargin = 6;    // plus lattice units
+constexpr double kLongStep = 2;        // from this step on by one radius only: caps are too coarse
+constexpr double kOffArc = 0.25;  // largest distance of points from a limb's arc, in its height
+constexpr double kOffArcAtRoot = kOffArc / 2;  // the same where the arc begins at the root
+// The limb turns if its ridge continues by more radii plus lattice units beyond its straight part.
 constexpr double kTurnRadii = 0.75;
 constexpr double kTurnMargin = 2;
 constexpr double kLimbAfterFlat = 0.95;  // least significance; corners of strips reach 0.9
-constexpr int kMajority = 7;             // of 14 neighbors, with the point itself
-constexpr int kThinner = 3;              // in thin limbs: so many fewer than their points have
+constexpr int kMajority = 7;             // object points with fewer object neighbors are bumps
+constexpr int kThinner = 3;              // in thin limbs: with so many fewer than the median
 
 class TipPlacer {
  public:
@@ -108,7 +108,7 @@ class TipPlacer {
     FindRoot(branch);
   }
 
-  // In flat limbs the distance to the background does not show where they end.
+  // In flat limbs the distance to the background does not show where the limb ends.
   bool CutFlat(const FreeBranch& branch) {
     path_.assign(branch.points.rbegin(), branch.points.rend());
     const auto root = std::ranges::find(path_, root_);
@@ -234,7 +234,7 @@ class TipPlacer {
     majority_ = std::clamp(static_cast<int>(MedianOf(counts)) - kThinner, kThinner, kMajority);
   }
 
-  // Whether p takes the side of the majority.
+  // Whether p has enough object neighbors to be no bump.
   bool IsFirm(LatticePoint p) { return NeighborsOf(p) >= majority_; }
 
   // On a noisy surface the path may end in single points, which are no tip.
@@ -249,8 +249,8 @@ class TipPlacer {
   }
 
   // Position in the path of the first point that may become the tip. The end must lie in the cap
-  // around the new tip, and the new tip must lie in the limb, not in a body behind a short
-  // limb or in a bead, whose distances are larger.
+  // around the new tip, and the new tip must lie in the limb, not in a body behind a short limb or
+  // in a bead, whose distances are larger.
   size_t FirstCut(double radii) {
     size_t first = path_.size() - 1;
     for (size_t n = first; n > 0 && path_[n] != root_; --n) {

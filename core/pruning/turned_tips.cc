@@ -13,7 +13,7 @@ namespace {
 constexpr double kStraight = 0.77;  // cosine of 40 degrees
 constexpr double kLongest = 1.6;    // in radii of the fork
 constexpr double kLimbRadii = 2;    // least length of the limb, in radii of the fork
-constexpr double kLimbWorth = 2;    // least worth of a free limb, in worths of the arm aside
+constexpr double kLimbWorth = 2;    // least worth of a free limb, in worths of the other arm
 constexpr double kTwin = 1.15;      // largest worth of a tip that turns aside, in thresholds
 
 // A curve that leads away from a fork.
