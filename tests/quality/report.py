@@ -73,11 +73,10 @@ def heading(arguments, peer_name):
     return ["# Quality of skeletons", "",
             f"Objects of about {arguments.points:,} points, {arguments.turns} random rotations of "
             "each figure. All lengths are in lattice units: half the edge of the cubic cell, so a "
-            "voxel of a cubic grid with as many samples is 1.587 wide. Settings are the defaults "
-            "but for the method and the distance that the tables name.",
+            "voxel of a cubic grid with as many samples is 1.587 wide. Settings are the defaults, "
+            "except for the method and the distance that a table names.",
             "",
-            f"Machine: {machine()}. The figures do not depend on it. "
-            f"Peer: {peer_name}.",
+            f"Machine: {machine()}. The results do not depend on it. The peer is {peer_name}.",
             ""]
 
 

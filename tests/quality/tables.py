@@ -68,12 +68,11 @@ SUMMARY_HEAD = ["method, distance", "noise", "raw offset, mean", "worst figure",
 
 def offsets_section(figures, others):
     lines = ["## Against known center lines", "",
-             "Means over figures and rotations. An end belongs to a tip when it is no farther from "
-             "it than two radii and 8 units. Noise flips that share of the points on both sides of "
-             "the boundary, each only if that keeps the topology. Plain flips open tunnels and "
-             "enclose cavities; `--denoise 1 --fill-cavities --keep-largest` is made against them. "
-             "The peer gets plain flips as they are. Radius and length off by: the mean of how far "
-             "they are, to either side.",
+             "Means over figures and rotations. An end matches a tip if it lies within two radii "
+             "plus 8 units of it. Noise flips that share of the points on both sides of the "
+             "boundary, each only if that keeps the topology. Plain flips drop this condition, so "
+             "they open tunnels and enclose cavities; `--denoise 1 --fill-cavities "
+             "--keep-largest` repairs them, but not for the peer. Off by: mean absolute error.",
              ""]
     rows = [summary(figures, method, noise) for method in methods_of(figures) for noise in NOISES
             if select(figures, method=method, noise=noise)]
@@ -106,10 +105,10 @@ def figure_rows(figures, figure):
 def figures_section(figures):
     names = list(dict.fromkeys(row["figure"] for row in figures))
     lines = ["## Figure by figure, default settings", "",
-             "The first five resemble the shapes that the defaults were tuned on. Radius is that "
-             "of the result minus the true one; with noise balls are smaller, since they stop at the "
-             "first dent. A horse's limbs are spheroids that end in points: there the gap is what "
-             "is cut from the last, thin part. A cube has no true tips; its middle is kept.", ""]
+             "The first five resemble the shapes on which the defaults were tuned. Radius: the "
+             "result's minus the true one; noise makes balls smaller, since they stop at the "
+             "first pit. A horse's limbs are spheroids that end in points: there the gap is the "
+             "length cut from the last, thin part. A cube has no true tips; its middle is kept.", ""]
     head = ["figure", "noise", "tips", "ends", "raw", "smoothed", "largest", "radius", "length",
             "gap, mean", "largest", "branch points, true / found", "loops, true / found"]
     return lines + table(head, [row for name in names for row in figure_rows(figures, name)])
@@ -117,9 +116,9 @@ def figures_section(figures):
 
 def rotations_section(rotations):
     lines = ["## Turning the grid and the figure", "",
-             "The 24 rotations of the grid turn the points of one object, free ones the figure "
-             "before it is sampled. Mean is the mean way from a point to the nearest of the other "
-             "skeleton, both ways; Hausdorff the largest in any run.", ""]
+             "Grid: the 24 rotations of the grid turn the points of one object. Free: the figure "
+             "is turned before it is sampled. Mean: the distance from a point to the other "
+             "skeleton, in both directions; Hausdorff: the largest such distance in a run.", ""]
     rows = []
     for method in methods_of(rotations):
         for change in ("grid", "free"):
@@ -141,8 +140,8 @@ def thinness_section(figures):
                      f"{100 * mean(r['clustered'] for r in chosen):.1f} %",
                      f"{100 * worst(chosen, 'clustered'):.1f} %"])
     return ["## Thinness", "",
-            "Over all figures, rotations and noise. Clusters are points with three and more "
-            "neighbors, or with two that are neighbors: junctions and thick bends.", "",
+            "Over all figures, rotations and noise. Clusters are points with three or more "
+            "neighbors, or with two that are neighbors of each other: junctions and thick bends.", "",
             *table(["method, distance", "simple points left but ends", "points in clusters, mean",
                     "worst"], rows)]
 
@@ -153,8 +152,8 @@ def reconstruction_section(reconstruction):
     rows = [[name, *(f"{select(reconstruction, figure=name, kind=kind)[0]['jaccard']:.3f}"
                      for kind in kinds)] for name in names]
     return ["## Reconstruction", "",
-            "The union of the largest balls around the skeleton's points against the object: "
-            "Jaccard's index.", "", *table(["figure", *kinds], rows)]
+            "Jaccard index of the object and the union of the largest balls around the skeleton's "
+            "points.", "", *table(["figure", *kinds], rows)]
 
 
 def meshes_section(meshes):
@@ -174,8 +173,9 @@ def meshes_section(meshes):
                          *(f"{moved[n]['smooth_mean']:.2f}" for n in ("0.02", "0.05")),
                          sum(r["simple_left"] for r in chosen.values())])
     return ["## Meshes", "",
-            "No truth is known but components and loops; ends should stay with noise. Moved: mean "
-            "way between the smoothed curves of the clean and the noisy object.", "",
+            "Only the components and loops of meshes are known; the number of ends should not "
+            "change with noise. Moved: the mean distance between the smoothed curves of the clean "
+            "and the noisy object.", "",
             *table(["mesh", "method, distance", "components", "loops", "ends, clean", "2 %", "5 %",
                     "moved, 2 %", "5 %", "simple points left"], rows)]
 

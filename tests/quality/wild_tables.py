@@ -131,12 +131,13 @@ def class_rows(chosen, noises):
 
 def figures_section(wild):
     lines = ["## Figures in the wild", "",
-             "What people have: spines, flat parts, networks, cuts, rough surfaces, each turned at "
-             "random, as bcc objects and as masks of as many voxels; the half of seeds and figures "
-             "that no rule was chosen on. By noise, which keeps the topology of points or voxels: "
-             "true tips without an end / ends without a true tip. An end may lie half a limb away "
-             "from its tip: that is what the gap tells, in lattice units or edges of voxels. "
-             "Plates, disks and castings have no true tips.", ""]
+             "Objects like those that people have: spines, flat parts, networks, cuts, rough "
+             "surfaces. Each is turned at random and studied as a bcc object and as a mask of as "
+             "many voxels. This is the half of seeds and figures on which no rule was chosen. "
+             "Columns by noise, which keeps the topology of points or voxels: true tips without "
+             "an end / ends without a true tip. An end may lie up to half a limb from its tip; "
+             "the gap is this distance, in lattice units or voxel edges. Plates, disks and "
+             "castings have no true tips.", ""]
     noises = sorted({r["noise"] for r in wild})
     head = ["class", "objects", "tips", *map(percent, noises), "all ends right", "largest gap",
             "off the middle, worst", "junctions found / true", "pruning's share"]
@@ -153,10 +154,10 @@ def meshes_section(meshes):
              f"{min(r['pose_ends'])} to {max(r['pose_ends'])}", f"{r['p95']:.2f}",
              f"{r['smooth_p95']:.2f}", f"{r['largest']:.1f}"] for r in meshes]
     return ["## Meshes at several sizes and in several poses", "",
-            f"Ends by number of points, and at {points[0]:,} points of "
-            f"{len(meshes[0]['pose_ends'])} random rotations. Distance: from a skeleton's points "
-            "to the nearest of that in the first pose, turned back, and the other way, over the "
-            "radius there; the worst pose. Smooth: between the smooth curves.", "",
+            f"Ends by number of points, and at {points[0]:,} points in "
+            f"{len(meshes[0]['pose_ends'])} random rotations. Distance: from the points of a "
+            "skeleton to the one in the first pose, and back, relative to the radius there, in "
+            "the worst pose. Smooth: the same between the smooth curves.", "",
             *table(["mesh", *(f"{n:,}" for n in points), "apart", "ends in poses",
                     "distance, 95th percentile", "smooth", "largest"], rows)]
 
@@ -172,12 +173,12 @@ def masks_section(masks, others):
                      f"{r['seconds']:.1f}", *([other["ends"], other["missed"],
                                                f"{other['seconds']:.1f}"] if other else "---")])
     return ["## Real masks", "",
-            "Default settings. Twigs are end branches shorter, from where they leave the ball of "
-            "their junction, than their radius there. Redundant length is the share that lies "
-            "inside 0.9 of the largest ball of a point of another edge, more than two of its radii "
-            "away along the graph: strands, ribs, doubled curves; edges that no cut of ends can "
-            "take do not count. Missed parts are connected groups of more than 20 voxels that lie "
-            "more than 4 voxels outside all balls. Conversion is not in the time.", "",
+            "Default settings. Twigs are end branches whose part outside the ball of their "
+            "junction is shorter than their radius there. Redundant length is the share inside "
+            "0.9 of the largest ball of a point of another edge more than two of its radii away "
+            "along the graph (strands, ribs, doubled curves), except for edges that no removal of "
+            "ends can affect. Missed parts are connected groups of more than 20 voxels that lie "
+            "more than 4 voxels outside all balls. The time excludes conversion.", "",
             *table(["mask", "kind", "voxels", "loops", "free ends", "branches", "twigs",
                     "redundant length", "missed parts", "seconds", "peer's free ends",
                     "missed parts", "seconds"], rows)]
@@ -202,10 +203,11 @@ def options_section(masks, changed):
                          *(f"{before[key]} -> {after[key]}" for key in figures),
                          f"{share[0]} -> {share[1]} %"])
     return ["## Options for real masks", "",
-            "From the defaults to the option. A preset may change the topology: it fills cavities "
-            "and narrow tunnels and drops small components, so loops and components go. "
-            "`--border continues` keeps it. What lies flat along a face of the image then has its "
-            "curve in the face, beside others: more length is redundant, so it is no default.",
+            "Values with the defaults and with the option. A preset may change the topology: it "
+            "fills cavities and narrow tunnels and removes small components, so there are fewer "
+            "loops and components. `--border continues` keeps the topology. It is not the "
+            "default, since an object that lies flat along a face of the image gets a curve in "
+            "that face beside its others, which is redundant length.",
             "",
             *table(["option", "mask", "components", "loops", "free ends", "branches", "twigs",
                     "missed parts", "redundant length"], rows)]
@@ -215,10 +217,10 @@ def slices_section(slices):
     rows = [[f"{r['thickness']:g}", f"{r['half_width']:g}", r["tubes"], r["wrong"], f"{r['gap']:.2f}",
              f"{r['largest_gap']:.2f}", r["narrow"], f"{r['off']:.2f}"] for r in slices]
     return ["## Thick slices", "",
-            "Masks of tubes with round caps in random directions, in slices 1 to 8 times as thick as "
-            "voxels are wide. The gap is that of the ends to the centers of the caps, in slices; "
-            "ends are narrow with less than half the tube's radius; off the middle is the farthest "
-            "point of a curve, in radii, in the mean.", "",
+            "Masks of tubes with round caps in random directions, in slices 1 to 8 times as thick "
+            "as voxels are wide. Gap: from an end to the center of its cap, in slices. Narrow "
+            "ends have less than half the tube's radius. Off the middle: the farthest point of a "
+            "curve, in radii, mean over tubes.", "",
             *table(["thickness", "half-width in slices", "tubes", "without two ends", "gap",
                     "largest gap", "narrow ends", "off the middle"], rows)]
 
