@@ -49,6 +49,16 @@ class FirmDepth {
   size_t oldest_ = 0;
 };
 
+// The distances by which tips are placed.
+struct TipDepths {
+  // Needs: `object`, to which `radius` belongs if it searches, outlives this.
+  TipDepths(const Volume& object, const ExactRadius& radius)
+      : searching(radius.searches() ? radius : ExactRadius(object)), firm(object, searching) {}
+
+  ExactRadius searching;  // with pits
+  FirmDepth firm;         // without
+};
+
 }  // namespace bccskel
 
 #endif  // BCCSKEL_CORE_PRUNING_FIRM_DEPTH_H_

@@ -115,6 +115,19 @@ void CollapsePaths(ThinSet& set, Significance& significance, double threshold,
   }
 }
 
+Significance SignificanceIn(const Volume& space, const ExactRadius& radius, const PrunedObject& in,
+                            const SurfaceNoise& noise) {
+  std::optional<TipExtender> extender;
+  std::optional<FirmDepth> firm_depth;
+  // A voxel's edge is longer than the part of a limb that thinning omits; its pit is a voxel deep.
+  if (in.surface_step == 1) {
+    extender.emplace(space, radius);
+  } else if (noise.roughness > 0) {
+    firm_depth.emplace(space, radius);
+  }
+  return Significance(in.object, noise, std::move(extender), std::move(firm_depth), space.window());
+}
+
 }  // namespace
 
 absl::Status CheckPruningOptions(const PruningOptions& options) {
@@ -145,22 +158,9 @@ absl::StatusOr<ThinSkeleton> Prune(const ThinSkeleton& curves, const PrunedObjec
   const Volume& space = in.space != nullptr ? *in.space : in.object;
   const SurfaceNoise noise = SurfaceNoiseOf(in.object, in.surface_step, in.slabs);
   const ExactRadius in_space = in.space == nullptr ? in.radius : ExactRadius(space);
-  std::optional<TipExtender> extender;
-  std::optional<FirmDepth> firm_depth;
-  // A voxel's edge is longer than the part of a limb that thinning omits; its pit is a voxel deep.
-  if (in.surface_step == 1) {
-    extender.emplace(space, in_space);
-  } else if (noise.roughness > 0) {
-    firm_depth.emplace(space, in_space);
-  }
-  Significance significance(in.object, noise, std::move(extender), std::move(firm_depth),
-                            space.window());
-  std::optional<ExactRadius> searching;
-  std::optional<FirmDepth> depth;  // none if no tips are placed
-  if (options.tips == TipPlacement::kRidge) {
-    searching.emplace(in.radius.searches() ? in.radius : ExactRadius(space));
-    depth.emplace(space, *searching);
-  }
+  Significance significance = SignificanceIn(space, in_space, in, noise);
+  std::optional<TipDepths> depths;  // none if no tips are placed
+  if (options.tips == TipPlacement::kRidge) depths.emplace(space, in.radius);
   TurnedTips turned;
   if (options.rule != PruningRule::kNone) {
     const double threshold = ThresholdOf(options, curves.points.placement());
@@ -170,8 +170,8 @@ absl::StatusOr<ThinSkeleton> Prune(const ThinSkeleton& curves, const PrunedObjec
     turned.DropFrom(threshold);
     if (by_shape) {
       CollapsePaths(set, significance, threshold, kept);
-      if (depth.has_value()) {
-        GrowBodyEnds(set, in.object, in.radius, *depth, significance, threshold, context);
+      if (depths.has_value()) {
+        GrowBodyEnds(set, in.object, in.radius, depths->firm, significance, threshold, context);
       }
     }
     if (absl::Status stop = context.StopStatus(); !stop.ok()) return stop;
@@ -184,8 +184,8 @@ absl::StatusOr<ThinSkeleton> Prune(const ThinSkeleton& curves, const PrunedObjec
   };
   absl::Status placed;
   const auto place_tips = [&](const exec::Context& own) {
-    if (!depth.has_value()) return;
-    placed = PlaceTips(set, in.object, in.radius, *searching, *depth, kept, noise, turned, own);
+    if (!depths.has_value()) return;
+    placed = PlaceTips(set, in.object, in.radius, *depths, kept, noise, turned, own);
   };
   RunBoth(find_levels, place_tips, context.WorkersFor(set.Ends().size(), Significance::kWork),
           context);

@@ -40,15 +40,15 @@ constexpr int kThinner = 3;              // in thin limbs: with so many fewer th
 
 class TipPlacer {
  public:
-  TipPlacer(ThinSet& set, const Volume& object, const ExactRadius& radius,
-            const ExactRadius& searching, FirmDepth& depth, const PointSet& keep,
-            const SurfaceNoise& noise, const TurnedTips& turned, const exec::Context& context)
+  TipPlacer(ThinSet& set, const Volume& object, const ExactRadius& radius, TipDepths& depths,
+            const PointSet& keep, const SurfaceNoise& noise, const TurnedTips& turned,
+            const exec::Context& context)
       : set_(set),
         bricks_(object),
         radius_(radius),
-        depth_(depth),
-        steps_(set, object, depth),
-        flat_(object, searching, depth),  // it ends at the border
+        depth_(depths.firm),
+        steps_(set, object, depths.firm),
+        flat_(object, depths.searching, depths.firm),  // it ends at the border
         last_limb_(object, noise),
         keep_(keep),
         turned_(turned),
@@ -370,12 +370,11 @@ class TipPlacer {
 }  // namespace
 
 absl::Status PlaceTips(ThinSet& set, const Volume& object, const ExactRadius& radius,
-                       const ExactRadius& searching, FirmDepth& depth, const PointSet& keep,
-                       const SurfaceNoise& noise, const TurnedTips& turned,
-                       const exec::Context& context) {
+                       TipDepths& depths, const PointSet& keep, const SurfaceNoise& noise,
+                       const TurnedTips& turned, const exec::Context& context) {
   const std::vector<LatticePoint> ends = set.Ends();
   if (ends.empty()) return absl::OkStatus();
-  TipPlacer placer(set, object, radius, searching, depth, keep, noise, turned, context);
+  TipPlacer placer(set, object, radius, depths, keep, noise, turned, context);
   for (LatticePoint end : ends) {
     if (context.ShouldStop()) return context.StopStatus();
     placer.Place(end);

@@ -20,14 +20,12 @@ namespace bccskel {
 // most 6 units plus twice the radius there (once the radius where steps along one axis are at least
 // twice as long as along another), and not into the ball of another branch. Points of `keep` are
 // not cut off. Ends that turn aside are removed first from limbs that are not flat (TurnedTips).
-// Needs:  `radius` belongs to `object`; `searching` searches; `depth` belongs to the object, or to
-//         the object with points beyond its border, into which no tip grows; `noise` is that of its
-//         surface.
+// Needs:  `radius` belongs to `object`; `depths` belong to the object, or to the object with points
+//         beyond its border, into which no tip grows; `noise` is that of its surface.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
 absl::Status PlaceTips(ThinSet& set, const Volume& object, const ExactRadius& radius,
-                       const ExactRadius& searching, FirmDepth& depth, const PointSet& keep,
-                       const SurfaceNoise& noise, const TurnedTips& turned,
-                       const exec::Context& context);
+                       TipDepths& depths, const PointSet& keep, const SurfaceNoise& noise,
+                       const TurnedTips& turned, const exec::Context& context);
 
 }  // namespace bccskel
 
