@@ -40,6 +40,10 @@ void AddGrid(CLI::App& command, VoxelizeOptions& grid) {
                        "Parts of a mesh thinner than two lattice units: keep (default) adds the "
                        "points that leave them whole, sample adds none",
                        {{"keep", ThinParts::kKeep}, {"sample", ThinParts::kSample}});
+  AddChoice<LatticeAxes>(command, "--lattice-axes", grid.axes,
+                         "Axes of a mesh's lattice: the shape's own (default), so that the result "
+                         "does not depend on the pose, or the world's",
+                         {{"shape", LatticeAxes::kShape}, {"world", LatticeAxes::kWorld}});
 }
 
 namespace {

@@ -301,9 +301,10 @@ absl::StatusOr<Volume> FillOnGridOf(const view::ResultDocument& result,
   VoxelizeOptions grid = arguments.grid;
   grid.spacing = placement.spacing[0];
   grid.large_cells = LargeCells::kAccept;
+  if (placement.direction == Placement().direction) grid.axes = LatticeAxes::kWorld;
   BCCSKEL_ASSIGN_OR_RETURN(Volume centered,
                            LoadObject(arguments.object, grid, arguments.image, context));
-  const double off = std::abs(centered.placement().origin[0] - placement.origin[0]);
+  const double off = DistanceBetween(centered.placement().origin, placement.origin);
   if (off < 0.01 * placement.spacing[0]) return centered;
   grid.shift = GridShift::kOffCenter;
   return LoadObject(arguments.object, grid, arguments.image, context);

@@ -44,10 +44,11 @@ absl::Status CheckObject(const std::string& input, const VoxelizeOptions& grid,
   if (!kind.ok()) return absl::OkStatus();
   const std::string is = "; " + input + " is " + std::string(InputKindPhrase(*kind));
   const bool grid_given = grid.points.has_value() || grid.spacing.has_value() ||
-                          grid.fill != FillRule::kAuto || grid.thin_parts != ThinParts::kKeep;
+                          grid.fill != FillRule::kAuto || grid.thin_parts != ThinParts::kKeep ||
+                          grid.axes != LatticeAxes::kShape;
   if (grid_given && *kind != InputKind::kMesh) {
     return absl::InvalidArgumentError(
-        "--points, --spacing, --fill and --thin-parts are for meshes" + is);
+        "--points, --spacing, --fill, --thin-parts and --lattice-axes are for meshes" + is);
   }
   if (*kind == InputKind::kImage) return CheckImageChoice(input, image.open);
   if (!image.given) return absl::OkStatus();

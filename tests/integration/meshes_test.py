@@ -210,7 +210,8 @@ class MeshesTest(harness.TestCase):
         faces = [(0, 2, 1), (1, 2, 3), (4, 5, 6), (5, 7, 6), (0, 1, 4), (1, 5, 4),
                  (2, 6, 3), (3, 6, 7), (0, 4, 2), (2, 4, 6), (1, 3, 5), (3, 7, 5)]
         (self.folder / "plate.off").write_text(to_off(corners, faces))
-        plate = (self.path("plate.off"), "--local", "--spacing", 1, "-o", self.path("p.json"))
+        plate = (self.path("plate.off"), "--local", "--spacing", 1, "--lattice-axes", "world",
+                 "-o", self.path("p.json"))
         text = harness.bccskel("skeletonize", *plate).stdout
         self.assertRegex(text, r"thin: +[0-9,]+ points added, so that parts thinner than two")
         self.assertRegex(text, r"object: .*, 1 component, 0 loops, 0 cavities")
@@ -220,8 +221,28 @@ class MeshesTest(harness.TestCase):
                                              "--json").stdout)
         self.assertEqual(sampled["added_points"], 0)
         self.assertGreater(sampled["certificate"]["input"]["components"], 100)
-        self.fail_with(2, "--thin-parts are for meshes", "skeletonize", self.generate("ball"),
+        self.fail_with(2, "--lattice-axes are for meshes", "skeletonize", self.generate("ball"),
                        "--local", "--thin-parts", "sample", "-o", self.path("b.json"))
+
+    def test_every_pose_gives_the_same_skeleton(self):
+        points = self.points.astype(float)
+        points *= 1 + 0.03 * points[:, :1] + 0.05 * points[:, 2:]  # no symmetry is left
+        turn, _ = numpy.linalg.qr(numpy.array([[3, 1, -2], [1, 4, 1], [2, -1, 5.0]]))
+        turn *= numpy.linalg.det(turn)
+        lengths = {}
+        for name, posed in (("a", points), ("b", points @ turn.T + (7, -50, 3))):
+            (self.folder / f"{name}.off").write_text(to_off(posed, self.triangles))
+            for axes in ("shape", "world"):
+                result = self.path(f"{name}_{axes}.json")
+                self.succeed("skeletonize", self.path(f"{name}.off"), "--local", "--points", 20000,
+                             "--lattice-axes", axes, "-o", result)
+                edges = json.loads(pathlib.Path(result).read_text())["edges"]
+                lengths[name, axes] = sorted(edge["length"] for edge in edges)
+                picture = harness.bccskel("render", result, "--object", self.path(f"{name}.off"),
+                                          "-o", self.path("p.png"))
+                self.assertEqual((picture.returncode, picture.stderr), (0, ""))
+        numpy.testing.assert_allclose(lengths["a", "shape"], lengths["b", "shape"], rtol=1e-6)
+        self.assertNotEqual(lengths["a", "world"], lengths["b", "world"])
 
     def test_an_open_mesh_that_encloses_nothing_is_soon_refused(self):
         # Of three triangles; it took five minutes, on finer and finer grids.

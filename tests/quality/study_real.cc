@@ -120,13 +120,13 @@ struct Pose {
 };
 
 absl::StatusOr<Pose> PoseOf(TriangleMesh mesh, uint64_t points, const Frame& frame,
-                            const SkeletonizeOptions& options) {
+                            LatticeAxes axes, const SkeletonizeOptions& options) {
   for (TriangleMesh::Vertex& v : mesh.vertices) {
     const Vector turned = frame.Turn({v[0], v[1], v[2]});
     v = {turned.x, turned.y, turned.z};
   }
   BCCSKEL_ASSIGN_OR_RETURN(const VoxelizeResult solid,
-                           Voxelize(mesh, {.points = points}, exec::Context()));
+                           Voxelize(mesh, {.points = points, .axes = axes}, exec::Context()));
   BCCSKEL_ASSIGN_OR_RETURN(const SkeletonizeResult result,
                            Skeletonize(solid.volume, options, exec::Context()));
   const SkeletonGraph& graph = result.graph;
@@ -169,39 +169,62 @@ double Percentile95(const std::vector<double>& sorted) {
   return sorted.empty() ? 0 : sorted[sorted.size() * 95 / 100];
 }
 
-absl::Status StudyClosedMesh(const std::string& path, const StudyOptions& options) {
-  const std::string name = std::filesystem::path(path).filename();
-  BCCSKEL_ASSIGN_OR_RETURN(const TriangleMesh mesh, ReadMeshFile(path));
-  std::vector<int> sizes, poses;
-  for (const uint64_t points : options.points) {
-    BCCSKEL_ASSIGN_OR_RETURN(const Pose pose, PoseOf(mesh, points, Frame(), options.skeleton));
-    sizes.push_back(pose.ends);
-  }
-  Pose first;
+// How far the skeletons of random poses differ.
+struct Differences {
+  std::string ends;  // numbers, separated by commas
   double p95 = 0, smooth = 0, largest = 0;
+};
+
+absl::StatusOr<Differences> DifferencesBetweenPoses(const TriangleMesh& mesh, LatticeAxes axes,
+                                                    const StudyOptions& options) {
+  Differences differences;
+  std::vector<int> ends;
+  Pose first;
   for (int turn = 0; turn < options.turns; ++turn) {
     BCCSKEL_ASSIGN_OR_RETURN(
         Pose pose, PoseOf(mesh, options.points.front(), RandomFrame(static_cast<uint64_t>(turn)),
-                          options.skeleton));
-    poses.push_back(pose.ends);
+                          axes, options.skeleton));
+    ends.push_back(pose.ends);
     if (turn == 0) {
       first = std::move(pose);
       continue;
     }
     const std::vector<double> distances = DistancesBetween(first, pose, &Pose::places);
-    p95 = std::max(p95, Percentile95(distances));
-    if (!distances.empty()) largest = std::max(largest, distances.back());
-    smooth = std::max(smooth, Percentile95(DistancesBetween(first, pose, &Pose::smooth)));
+    differences.p95 = std::max(differences.p95, Percentile95(distances));
+    if (!distances.empty()) {
+      differences.largest = std::max(differences.largest, distances.back());
+    }
+    differences.smooth =
+        std::max(differences.smooth, Percentile95(DistancesBetween(first, pose, &Pose::smooth)));
   }
-  const std::string by_size = absl::StrJoin(sizes, ", "), by_pose = absl::StrJoin(poses, ", ");
+  differences.ends = absl::StrJoin(ends, ", ");
+  return differences;
+}
+
+absl::Status StudyClosedMesh(const std::string& path, const StudyOptions& options) {
+  const std::string name = std::filesystem::path(path).filename();
+  BCCSKEL_ASSIGN_OR_RETURN(const TriangleMesh mesh, ReadMeshFile(path));
+  std::vector<int> sizes;
+  for (const uint64_t points : options.points) {
+    BCCSKEL_ASSIGN_OR_RETURN(const Pose pose,
+                             PoseOf(mesh, points, Frame(), LatticeAxes::kShape, options.skeleton));
+    sizes.push_back(pose.ends);
+  }
+  BCCSKEL_ASSIGN_OR_RETURN(const Differences own,
+                           DifferencesBetweenPoses(mesh, LatticeAxes::kShape, options));
+  BCCSKEL_ASSIGN_OR_RETURN(const Differences world,
+                           DifferencesBetweenPoses(mesh, LatticeAxes::kWorld, options));
+  const std::string by_size = absl::StrJoin(sizes, ", ");
   if (options.json) {
     absl::PrintF(
         "{\"study\": \"closed meshes\", \"mesh\": \"%s\", \"points\": [%s], \"ends\": [%s], "
-        "\"pose_ends\": [%s], \"p95\": %.4f, \"smooth_p95\": %.4f, \"largest\": %.3f}\n",
-        name, absl::StrJoin(options.points, ", "), by_size, by_pose, p95, smooth, largest);
+        "\"pose_ends\": [%s], \"p95\": %.4f, \"world_pose_ends\": [%s], \"world_p95\": %.4f, "
+        "\"world_smooth_p95\": %.4f, \"world_largest\": %.3f}\n",
+        name, absl::StrJoin(options.points, ", "), by_size, own.ends, own.p95, world.ends,
+        world.p95, world.smooth, world.largest);
   } else {
-    absl::PrintF("%-24s %-20s %-28s %6.2f %6.2f %8.2f\n", name, by_size, by_pose, p95, smooth,
-                 largest);
+    absl::PrintF("%-24s %-20s %-28s %6.2f %-28s %6.2f %6.2f %8.2f\n", name, by_size, own.ends,
+                 own.p95, world.ends, world.p95, world.smooth, world.largest);
   }
   std::fflush(stdout);
   return absl::OkStatus();
@@ -223,8 +246,8 @@ absl::Status PrintRealVoxels(const StudyOptions& options) {
 
 absl::Status StudyClosedMeshes(const StudyOptions& options) {
   if (!options.json) {
-    absl::PrintF("%-24s %-20s %-28s %6s %6s %8s\n", "mesh", "ends by size", "ends by pose", "p95",
-                 "smooth", "largest");
+    absl::PrintF("%-24s %-20s %-28s %6s %-28s %6s %6s %8s\n", "mesh", "ends by size",
+                 "ends by pose", "p95", "the same, axes of the world", "p95", "smooth", "largest");
   }
   std::error_code error;
   std::vector<std::string> paths;

@@ -62,6 +62,7 @@ class _MeshOptions(_SkeletonOptions, total=False):
     spacing: float
     fill: Literal["auto", "parity", "winding"]
     thin_parts: Literal["keep", "sample"]
+    lattice_axes: Literal["shape", "world"]
 
 class _FileOptions(TypedDict, total=False):
     voxel_size: tuple[float, float, float]

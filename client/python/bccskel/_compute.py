@@ -51,7 +51,7 @@ def _lattice(server: Any, lattice: Lattice, placed: bool, threads: int, timeout:
              progress: Any, options: dict) -> Skeleton:
     if placed:
         raise TypeError("a Lattice has a placement and accepts no spacing, origin, direction or axes")
-    for name in ("points", "spacing", "fill", "thin_parts"):
+    for name in ("points", "spacing", "fill", "thin_parts", "lattice_axes"):
         if name in options:
             raise TypeError(f"a Lattice accepts no option {name}")
     frame = Frame("xyz")
@@ -185,7 +185,8 @@ def skeletonize_mesh(vertices: Any, faces: Any = None, threads: int = 0,
     options: those of `bccskel skeletonize` with underscores. points=850_000 (default) or
         spacing=0.5 is the resolution; fill='parity' or 'winding' defines the inside;
         thin_parts='sample' leaves parts thinner than two lattice units as the lattice meets them,
-        'keep' (default) adds the points that they need to stay whole.
+        'keep' (default) adds the points that they need to stay whole; lattice_axes='shape'
+        (default) makes the result independent of the pose, 'world' keeps x, y, z.
 
     Otherwise as `skeletonize()`; coordinates of the result are x, y, z.
 

@@ -9,6 +9,7 @@
 #include "core/exec/status_macros.h"
 #include "core/import/voxelize/crossings.h"
 #include "core/import/voxelize/grid_fit.h"
+#include "core/import/voxelize/shape_axes.h"
 #include "core/import/voxelize/solid_fill.h"
 #include "core/import/voxelize/topology_repair.h"
 
@@ -103,8 +104,10 @@ class SpacingSearch {
 
 class Voxelizer {
  public:
-  Voxelizer(Surface surface, const VoxelizeOptions& options, const exec::Context& context)
-      : surface_(std::move(surface)), options_(options), context_(context) {}
+  // `axes`: those of the lattice, along which the surface is given; null: the world's.
+  Voxelizer(Surface surface, const ShapeAxes* axes, const VoxelizeOptions& options,
+            const exec::Context& context)
+      : surface_(std::move(surface)), axes_(axes), options_(options), context_(context) {}
 
   absl::StatusOr<VoxelizeResult> Run() {
     BCCSKEL_RETURN_IF_ERROR(CheckTriangles(surface_));
@@ -136,6 +139,9 @@ class Voxelizer {
     result.mesh = std::move(surface_.report);
     return result;
   }
+
+  // Whether the volume has another topology than the mesh.
+  bool misses_topology() const { return misses_topology_; }
 
  private:
   // The lattice points inside on one grid.
@@ -174,6 +180,7 @@ class Voxelizer {
     if (!mesh || *mesh == found) return absl::OkStatus();
     BCCSKEL_RETURN_IF_ERROR(Repair(*mesh, result));
     if (*mesh == AsSolid(*result.topology)) return absl::OkStatus();
+    misses_topology_ = true;
     BCCSKEL_ASSIGN_OR_RETURN(const uint64_t crossings, CountCrossings(surface_, context_));
     warnings_.push_back(
         "the volume has " + InWords(AsSolid(*result.topology)) + ", but the mesh has " +
@@ -222,7 +229,11 @@ class Voxelizer {
 
   absl::StatusOr<Sampling> Fill(double unit_spacing, GridShift shift) const {
     Sampling sampling;
-    BCCSKEL_ASSIGN_OR_RETURN(const GridFit fit, FitGrid(surface_, unit_spacing, shift));
+    BCCSKEL_ASSIGN_OR_RETURN(GridFit fit, FitGrid(surface_, unit_spacing, shift));
+    if (axes_ != nullptr) {
+      fit.placement = axes_->ToWorld(fit.placement);
+      BCCSKEL_RETURN_IF_ERROR(CheckPlacement(fit.placement));
+    }
     sampling.request = fill_->RequestOn(fit);
     BCCSKEL_ASSIGN_OR_RETURN(sampling.volume, fill_->Fill(sampling.request, context_));
     return sampling;
@@ -308,10 +319,12 @@ class Voxelizer {
   }
 
   Surface surface_;
+  const ShapeAxes* const axes_;
   std::optional<SolidFill> fill_;
   const VoxelizeOptions& options_;
   const exec::Context& context_;
   std::vector<std::string> warnings_;
+  bool misses_topology_ = false;
 };
 
 }  // namespace
@@ -319,7 +332,18 @@ class Voxelizer {
 absl::StatusOr<VoxelizeResult> Voxelize(const TriangleMesh& mesh, const VoxelizeOptions& options,
                                         const exec::Context& context) {
   BCCSKEL_RETURN_IF_ERROR(CheckOptions(options));
-  return Voxelizer(PrepareSurface(mesh), options, context).Run();
+  Surface surface = PrepareSurface(mesh);
+  std::vector<ShapeAxes> choices;
+  if (options.axes == LatticeAxes::kShape) choices = ShapeAxesOf(surface);
+  if (choices.empty()) return Voxelizer(std::move(surface), nullptr, options, context).Run();
+  VoxelizeResult first;
+  for (const ShapeAxes& axes : choices) {
+    Voxelizer voxelizer(axes.Along(surface), &axes, options, context);
+    BCCSKEL_ASSIGN_OR_RETURN(VoxelizeResult result, voxelizer.Run());
+    if (!voxelizer.misses_topology()) return result;
+    if (&axes == &choices.front()) first = std::move(result);
+  }
+  return first;
 }
 
 }  // namespace bccskel

@@ -26,6 +26,11 @@ enum class TopologyCheck { kCompare, kSkip };
 // A spacing larger than the mesh is a mistake, unless it is that of a result of few points.
 enum class LargeCells { kRefuse, kAccept };
 
+// The axes of the lattice: the mesh's own (ShapeAxesOf()), so that the result does not depend on
+// its pose, or the world's. Of the mesh's own, the first that give its topology, where it is
+// compared.
+enum class LatticeAxes { kShape, kWorld };
+
 struct VoxelizeOptions {
   // Exactly one of these two. The number of points is met within 2 % where the solid has enough of
   // them, not counting those that keep thin parts; the spacing is the edge of the cubic cell in the
@@ -34,6 +39,7 @@ struct VoxelizeOptions {
   std::optional<double> spacing = {};
   // Of a spacing. A number of points takes a centered grid, unless only one off the center has it.
   GridShift shift = GridShift::kCentered;
+  LatticeAxes axes = LatticeAxes::kShape;
   LargeCells large_cells = LargeCells::kRefuse;
   FillRule fill = FillRule::kAuto;
   // Not with kParity, which does not say on which side of the surface the solid is.
@@ -51,10 +57,10 @@ struct VoxelizeResult {
   std::optional<BettiNumbers> topology;  // of the volume, with TopologyCheck::kCompare
 };
 
-// Lays a bcc grid over the mesh, its middle on or near the middle of the box, and takes the lattice
-// points inside. Points exactly on the surface are inside where (x + e^3, y + e, z + e^2) is, for a
-// vanishing e > 0 (see core/import/mesh/ray_crossing.h), so a box of whole cells gives half-open
-// ranges.
+// Lays a bcc grid over the mesh, its middle on or near the middle of the mesh's box along the
+// grid's axes, and takes the lattice points inside. Points exactly on the surface are inside where
+// (x + e^3, y + e, z + e^2) is, for a vanishing e > 0 (see core/import/mesh/ray_crossing.h), so a
+// box of whole cells gives half-open ranges.
 // Does:    snaps vertices to 2^-16 lattice units, casts an exact ray along x through every lattice
 //          row and fills spans into sparse bricks.
 // Cost:    time and memory follow the surface in rows and the solid in bricks, not the box.

@@ -140,8 +140,9 @@ TEST(ThinParts, GivesTheSameBitsOnAnyNumberOfThreads) {
     exec::WorkerTeam team(threads);
     exec::Context context;
     context.team = &team;
-    const auto result =
-        Voxelize(mesh, {.spacing = kSpacing, .topology = TopologyCheck::kSkip}, context);
+    const VoxelizeOptions options = {
+        .spacing = kSpacing, .axes = LatticeAxes::kWorld, .topology = TopologyCheck::kSkip};
+    const auto result = Voxelize(mesh, options, context);
     ASSERT_TRUE(result.ok()) << result.status();
     EXPECT_EQ(result->volume, one);
   }

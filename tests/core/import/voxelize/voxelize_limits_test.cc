@@ -273,7 +273,8 @@ TEST(VoxelizeRefusal, OfSizesThatADoubleCannotHold) {
   EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument) << status;
 }
 
-VoxelizeResult OnTeam(const TriangleMesh& mesh, const VoxelizeOptions& options, int threads) {
+VoxelizeResult OnTeam(const TriangleMesh& mesh, VoxelizeOptions options, int threads) {
+  options.axes = LatticeAxes::kWorld;  // as Voxelized()
   exec::WorkerTeam team(threads);
   exec::Context context;
   context.team = &team;

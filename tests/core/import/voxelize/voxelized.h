@@ -7,8 +7,10 @@
 
 namespace bccskel::test {
 
-// The voxelized mesh on one thread; a failure of the test where it is refused.
-inline VoxelizeResult Voxelized(const TriangleMesh& mesh, const VoxelizeOptions& options) {
+// The mesh voxelized along the world's axes, on one thread; a failure of the test where it is
+// refused.
+inline VoxelizeResult Voxelized(const TriangleMesh& mesh, VoxelizeOptions options) {
+  options.axes = LatticeAxes::kWorld;
   auto result = Voxelize(mesh, options, {});
   EXPECT_TRUE(result.ok()) << result.status();
   return result.ok() ? *std::move(result) : VoxelizeResult{};
