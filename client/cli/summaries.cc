@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "absl/strings/str_format.h"
 #include "client/cli/load_object.h"
 #include "client/export/method_facts.h"
 #include "client/export/picture/caption.h"
@@ -206,6 +207,14 @@ void AddList(Text& text, const Values& values) {
   text.Add(']');
 }
 
+// The axes of the grid in the world, to four digits; "" where they are the world's.
+std::string DirectionLine(const Placement& placement) {
+  if (placement.direction == Placement().direction) return "";
+  const auto& d = placement.direction;
+  return absl::StrFormat("direction:   %.4g %.4g %.4g, %.4g %.4g %.4g, %.4g %.4g %.4g\n", d[0],
+                         d[3], d[6], d[1], d[4], d[7], d[2], d[5], d[8]);
+}
+
 }  // namespace
 
 std::string PlacementJson(const Placement& placement) {
@@ -227,7 +236,7 @@ std::string VolumeText(const Volume& volume, const std::optional<BettiNumbers>& 
   text.Add("spacing:     ", placement.spacing[0], " x ", placement.spacing[1], " x ",
            placement.spacing[2], '\n');
   text.Add("origin:      ", placement.origin[0], ' ', placement.origin[1], ' ', placement.origin[2],
-           '\n');
+           '\n', DirectionLine(placement));
   text.Add("points:      ", GroupedDigits(volume.PointCount()), " in ",
            GroupedDigits(volume.brick_count()), " bricks\n");
   if (betti.has_value()) text.Add("topology:    ", exporting::BettiPhrase(*betti), '\n');
@@ -273,7 +282,7 @@ std::string ImageText(const ImageStage& image) {
   text.Add("\nspacing:     ", placement.spacing[0], " x ", placement.spacing[1], " x ",
            placement.spacing[2], info.unit.empty() ? "" : " ", info.unit, '\n');
   text.Add("origin:      ", placement.origin[0], ' ', placement.origin[1], ' ', placement.origin[2],
-           info.world.empty() ? "" : " ", info.world, '\n');
+           info.world.empty() ? "" : " ", info.world, '\n', DirectionLine(placement));
   text.Add("foreground:  ", GroupedDigits(image.voxels), " voxels\n");
   text.Add("topology:    ", exporting::BettiPhrase(image.mask), '\n');
   return std::move(text).Take();

@@ -242,6 +242,9 @@ class MeshesTest(harness.TestCase):
                                           "-o", self.path("p.png"))
                 self.assertEqual((picture.returncode, picture.stderr), (0, ""))
         numpy.testing.assert_allclose(lengths["a", "shape"], lengths["b", "shape"], rtol=1e-6)
+        voxelize = ("voxelize", self.path("a.off"), "--points", 3000, "-o", self.path("a.exr"))
+        self.assertRegex(self.succeed(*voxelize), "\ndirection: +-?0")
+        self.assertNotIn("direction", self.succeed(*voxelize, "--lattice-axes", "world"))
         self.assertNotEqual(lengths["a", "world"], lengths["b", "world"])
 
     def test_an_open_mesh_that_encloses_nothing_is_soon_refused(self):
