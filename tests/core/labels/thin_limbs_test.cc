@@ -27,7 +27,8 @@ MaskGrid StackOf(double slice) {
 
 TEST(ThinLimbs, BarsHaveTheLengthOfTheirMiddleLine) {
   for (const double slice : {1.0, 2.0, 3.0}) {
-    for (const auto& [width, slices] : {std::array{4, 1}, {6, 1}, {1, 2}, {3, 2}, {2, 2}, {1, 1}}) {
+    for (const auto& bar : {std::array{4, 1}, {6, 1}, {1, 2}, {3, 2}, {2, 2}, {1, 1}}) {
+      const int width = bar[0], slices = bar[1];  // clang 14 captures no structured binding
       const SkeletonizeResult result = SkeletonOf(StackOf(slice), {}, {}, [&](const Voxel& at) {
         return at[0] >= 10 && at[0] < 90 && at[1] >= 30 && at[1] < 30 + width && at[2] >= 4 &&
                at[2] < 4 + slices;
