@@ -4,8 +4,11 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
+
+#include "core/distance/places.h"
 
 namespace bccskel {
 namespace {
@@ -27,19 +30,9 @@ constexpr double kAlongWorld = 5e-9;      // cosine less than 1 of an angle of 1
 constexpr std::array<std::array<double, 4>, 3> kTurns = {
     {{1, 0.3, 0.2, 0.5}, {1, -0.4, 0.3, 0.2}, {1, 0.7, -0.5, 0.3}}};
 
-WorldPoint Scaled(double factor, const WorldPoint& v) {
-  return {factor * v[0], factor * v[1], factor * v[2]};
-}
-
-WorldPoint Plus(const WorldPoint& a, const WorldPoint& b) {
-  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
-}
-
-WorldPoint Minus(const WorldPoint& a, const WorldPoint& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-WorldPoint Normalized(const WorldPoint& v) { return Scaled(1 / std::sqrt(Dot(v, v)), v); }
+WorldPoint Scaled(double factor, const WorldPoint& v) { return Sum({0, 0, 0}, factor, v); }
+WorldPoint Plus(const WorldPoint& a, const WorldPoint& b) { return Sum(a, 1, b); }
+WorldPoint Minus(const WorldPoint& a, const WorldPoint& b) { return Sum(a, -1, b); }
 
 // A triangle, from the centroid of the surface.
 struct Facet {
@@ -148,7 +141,7 @@ std::optional<WorldPoint> CommonNormal(const std::vector<WorldPoint>& normals, d
     if (!is_parallel(*common, normal)) continue;
     sum = Plus(sum, Dot(normal, *common) < 0 ? Scaled(-1, normal) : normal);
   }
-  return Normalized(sum);
+  return Unit(sum);
 }
 
 // Along flat faces.
@@ -158,7 +151,7 @@ std::optional<Axes> FaceAxes(const Facets& facets) {
   if (!first.has_value()) return std::nullopt;
   const std::optional<WorldPoint> second = CommonNormal(normals, kSecondShare, &*first);
   if (!second.has_value()) return std::nullopt;
-  const WorldPoint third = Normalized(Cross(*first, *second));
+  const WorldPoint third = Unit(Cross(*first, *second));
   return Axes{*first, Cross(third, *first), third};
 }
 
@@ -204,16 +197,16 @@ std::optional<Axes> PrincipalAxes(const Facets& facets) {
     const size_t i = (n + 1) % 3, j = (n + 2) % 3;
     if (AreDistinct(along[i], along[j])) continue;
     if (!AreDistinct(along[n], along[i])) return std::nullopt;
-    const WorldPoint only = Normalized(axes[n]);
+    const WorldPoint only = Unit(axes[n]);
     WorldPoint world = {0, 0, 0};
     const auto least =
         std::ranges::min_element(only, {}, [](double v) { return std::abs(v); }) - only.begin();
     world[static_cast<size_t>(least)] = 1;
-    const WorldPoint second = Normalized(Minus(world, Scaled(Dot(world, only), only)));
+    const WorldPoint second = Unit(Minus(world, Scaled(Dot(world, only), only)));
     return Axes{only, second, Cross(only, second)};
   }
-  const WorldPoint first = Normalized(axes[0]);
-  const WorldPoint third = Normalized(Cross(first, axes[1]));
+  const WorldPoint first = Unit(axes[0]);
+  const WorldPoint third = Unit(Cross(first, axes[1]));
   return Axes{first, Cross(third, first), third};
 }
 
@@ -270,8 +263,8 @@ Axes Turned(const Axes& axes, const std::array<double, 4>& turn) {
                         {2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z}}};
   Axes turned;
   for (size_t n = 0; n < 3; ++n) {
-    turned[n] = Normalized(Plus(Scaled(rows[n][0], axes[0]),
-                                Plus(Scaled(rows[n][1], axes[1]), Scaled(rows[n][2], axes[2]))));
+    turned[n] = Unit(Plus(Scaled(rows[n][0], axes[0]),
+                          Plus(Scaled(rows[n][1], axes[1]), Scaled(rows[n][2], axes[2]))));
   }
   return turned;
 }
@@ -282,8 +275,9 @@ Surface ShapeAxes::Along(const Surface& surface) const {
   Surface own = surface;
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   WorldPoint low = {kInfinity, kInfinity, kInfinity}, high = Scaled(-1, low);
-  for (TriangleMesh::Vertex& v : own.vertices)
+  for (TriangleMesh::Vertex& v : own.vertices) {
     v = {Dot(axes[0], v), Dot(axes[1], v), Dot(axes[2], v)};
+  }
   for (const TriangleMesh::Triangle& triangle : own.triangles) {
     for (uint32_t corner : triangle) {
       for (size_t axis = 0; axis < 3; ++axis) {
