@@ -97,7 +97,7 @@ class ShellSweep {
   void TakeShare(int index, Worker& worker, int32_t shell) {
     worker.bricks = shares_.Of(index);
     BeginOpening(shells_, shell, own_, worker);
-    Split(index, worker);
+    SplitBricks(state_, rule_.steps(), !slabs_run_ahead(), worker);
     if (team_.meets(index)) FindBorder(state_, shares_, worker, dirty_);
   }
 
@@ -119,14 +119,6 @@ class ShellSweep {
     TakeShare(index, worker, shell);
   }
 
-  void Split(int index, Worker& worker) {
-    if (team_.meets(index) || sleeps() || partners_ != nullptr) {
-      SplitParts(state_, worker);
-    } else {
-      SplitSlabs(state_, rule_.steps(), worker);
-    }
-  }
-
   // Returns whether this worker continues; worker 0 takes over from the others, once.
   bool JoinedInOne(int index, Worker& first) {
     team_.Meet(index);  // the others have left their bricks
@@ -138,7 +130,7 @@ class ShellSweep {
     shares_.JoinInOne();
     first.bricks = shares_.Of(0);
     first.adjacent.clear();
-    Split(0, first);
+    SplitBricks(state_, rule_.steps(), !slabs_run_ahead(), first);
     for (DirtyMask& brick : dirty_) {
       if ((brick & kBorderBrick) == 0) continue;
       brick = static_cast<DirtyMask>((brick & ~kBorderBrick) | kBesideSleeper);
@@ -180,6 +172,10 @@ class ShellSweep {
   // With a single pass per cycle nothing is gained from visiting bricks that did not change.
   bool sleeps() const { return rule_.passes_per_cycle() > 1; }
 
+  // Whether slabs take steps before the borders have taken theirs. Partners need all marks of a
+  // pass at once, and so do bricks that fall asleep.
+  bool slabs_run_ahead() const { return !sleeps() && partners_ == nullptr; }
+
   DirtyBricks DirtyView() { return {dirty_.data(), busy_groups_.data()}; }
 
   // One more than the full groups, so that there is room for the padding brick.
@@ -192,50 +188,77 @@ class ShellSweep {
       if (partners_ == nullptr) stopped_ = context_.ShouldStop();
       ++passes_;
     }
+    if (!team_.meets(index) && stopped_) return false;
     HearOfChanges(index, worker);
-    if (!worker.slabs.empty()) return PassInSlabs(worker, at);
     for (; at.step < rule_.steps(); ++at.step) {
       if (at.step > 0) team_.Await(index);  // others have finished the previous step
-      if (index == 0) context_.Yield();
-      BorderFirst(index, worker, [&](Part& part) { Mark(at, part); });
+      Step(index, at, worker);
     }
     team_.Await(index);  // no worker reads points near its border any more
     if (stopped_) return false;
     if (at.pass == 0) HearOfSleepers(workers_, index, dirty_);
     Clear(worker.seen_elsewhere);
     if (partners_ != nullptr) TradeMarks(index, at.cycle, worker);
-    BorderFirst(index, worker, [&](Part& part) { Remove(at.cycle, part, worker); });
+    Step(index, at, worker);
     return true;
   }
 
+  // A step of a pass, the last of which removes points. Processes the bricks that border on others'
+  // first and then signals; while this worker processes the rest, others learn that they are done,
+  // so that hardly any worker has to wait.
+  void Step(int index, const PassStep& at, Worker& worker) {
+    if (index == 0) context_.Yield();
+    for (Part& border : worker.borders) {
+      if (!border.empty()) Take(at, border, worker);
+    }
+    team_.Arrive(index);
+    if (at.step == 0) return RunAhead(index, at, worker);
+    for (size_t slab = 0; slab < worker.slabs.size(); ++slab) {
+      if (at.step > ReachOf(slab, worker)) Take(at, worker.PartOf(slab, rule_.steps()), worker);
+    }
+  }
+
+  // The steps that a slab takes before the borders take their second: those for which no border has
+  // to be further. A step of a slab reads what the previous step left in the adjacent slabs, and
+  // their points, which they remove later.
+  int ReachOf(size_t slab, const Worker& worker) const {
+    if (!slabs_run_ahead()) return 0;
+    size_t reach = static_cast<size_t>(rule_.steps());
+    if (!worker.borders[0].empty()) reach = std::min(reach, slab + 1);
+    if (!worker.borders[1].empty()) reach = std::min(reach, worker.slabs.size() - slab);
+    return static_cast<int>(reach);
+  }
+
   // While a slab is at its first step, each slab before it is one step further, so that all data of
-  // a pass stay in near caches. A step of a slab reads what the previous step left in the adjacent
-  // slabs, and their points, which they remove later.
-  bool PassInSlabs(Worker& worker, PassStep at) {
-    const auto steps = static_cast<size_t>(rule_.steps());
-    for (size_t n = 0; n < worker.slabs.size() + steps && !stopped_; ++n) {
-      context_.Yield();
-      for (size_t step = n < worker.slabs.size() ? 0 : n - worker.slabs.size() + 1;
-           step <= std::min(n, steps); ++step) {
+  // a pass stay in near caches.
+  void RunAhead(int index, PassStep at, Worker& worker) {
+    const size_t count = worker.slabs.size(), steps = static_cast<size_t>(rule_.steps());
+    for (size_t n = 0; n < count + steps; ++n) {
+      if (index == 0) context_.Yield();
+      for (size_t step = n < count ? 0 : n - count + 1; step <= std::min(n, steps); ++step) {
         const size_t slab = n - step;
-        Part& part = worker.slab_parts[slab % worker.slab_parts.size()];
-        part.bricks = worker.slabs[slab];
         at.step = static_cast<int>(step);
-        if (step < steps) {
-          Mark(at, part);
-        } else {
-          Remove(at.cycle, part, worker);
-        }
+        if (at.step > ReachOf(slab, worker)) continue;
+        Part& part = worker.PartOf(slab, rule_.steps());
+        part.bricks = worker.slabs[slab];
+        Take(at, part, worker);
       }
     }
-    return !stopped_;
+  }
+
+  void Take(const PassStep& at, Part& part, Worker& worker) {
+    if (at.step < rule_.steps()) {
+      Mark(at, part);
+    } else {
+      Remove(at.cycle, part, worker);
+    }
   }
 
   // The owners of ghosts know which points these lose.
   void TradeMarks(int index, int32_t cycle, Worker& worker) {
-    for (Part& part : worker.parts) {
+    worker.ForEachPart([&](Part& part) {
       part.marks.Filter([this](const MarkedBrick& m) { return IsOwnOrMarkDirty(m.brick); });
-    }
+    });
     team_.Meet(index);
     if (index == 0) {
       TellMarks(workers_, *partners_);
@@ -268,17 +291,6 @@ class ShellSweep {
     }
     team_.Meet(index);
     return !stopped_;
-  }
-
-  // Processes the bricks that border on others' first and then signals; while this worker processes
-  // the rest, others learn that they are done, so that hardly any worker has to wait.
-  template <typename Work>
-  void BorderFirst(int index, Worker& worker, Work work) {
-    for (Part& part : std::span(worker.parts).first(2)) {
-      if (!part.empty()) work(part);
-    }
-    team_.Arrive(index);
-    if (!worker.parts[2].empty()) work(worker.parts[2]);
   }
 
   void Mark(const PassStep& at, Part& part) {

@@ -23,6 +23,30 @@ void Take(const BrickBits& points, BrickBits& from) {
   for (size_t k = 0; k < from.words.size(); ++k) from.words[k] &= ~points.words[k];
 }
 
+// The number of slabs at a border that cannot complete a pass before the border does: the first one
+// may be one step ahead of the border, the second two steps, and so on.
+size_t WaitingSlabs(int steps) { return static_cast<size_t>(std::max(steps - 1, 0)); }
+
+// So many slabs are in work at a time.
+size_t TurnsOf(int steps) { return static_cast<size_t>(steps) + 1; }
+
+// Below a slab may be layers without bricks.
+void AddSlabs(const ThinningState& state, exec::Share bricks, std::vector<exec::Share>& slabs) {
+  for (size_t begin = bricks.begin; begin < bricks.end;) {
+    const int32_t below = LayerOf(state, begin) - 1;
+    const int32_t touched = begin == 0 ? below : std::max(below, LayerOf(state, begin - 1));
+    const size_t next = std::min(RoundUp(FirstFromLayer(state, touched + 2)), bricks.end);
+    slabs.push_back({begin, next});
+    begin = next;
+  }
+  // The border above must not touch the last slab but one.
+  if (slabs.size() < 2 || bricks.end == state.brick_count()) return;
+  const exec::Share last = slabs.back();
+  if (LayerOf(state, last.begin - 1) + 2 <= LayerOf(state, last.end)) return;
+  slabs.pop_back();
+  slabs.back().end = last.end;
+}
+
 // For other bricks than before: an empty part, which no pass visits, must not keep its old lists.
 void Begin(exec::Share bricks, SweepPart& part) {
   part.bricks = bricks;
@@ -53,7 +77,7 @@ void FallAsleep(const ThinningState& state, const BrickShares& shares,
                 SweepWorker& worker) {
   Clear(worker.beside_sleepers_elsewhere);
   const auto has_changed = [&](BrickIndex brick) { return changed[brick] == cycle; };
-  for (const SweepPart& part : worker.parts) {
+  worker.ForEachPart([&](const SweepPart& part) {
     for (Sublattice sublattice : kSublattices) {
       for (const BrickIndex n : part.to_do.Of(sublattice)) {
         if ((dirty[n] & kAwake) == 0 || has_changed(n)) continue;
@@ -61,7 +85,7 @@ void FallAsleep(const ThinningState& state, const BrickShares& shares,
         PutToSleep(state, shares, n, dirty, worker);
       }
     }
-  }
+  });
 }
 
 void HearOfSleepers(std::span<const SweepWorker> workers, int index, std::span<DirtyMask> dirty) {
@@ -76,7 +100,7 @@ void Clear(BricksByOwner& bricks) {
   for (std::vector<BrickIndex>& list : bricks) list.clear();
 }
 
-void SplitParts(const ThinningState& state, SweepWorker& worker) {
+void SplitBricks(const ThinningState& state, int steps, bool one_slab, SweepWorker& worker) {
   const auto [begin, end] = worker.bricks;
   size_t low = begin, high = end;
   if (begin > 0 && begin < end) low = FirstFromLayer(state, LayerOf(state, begin - 1) + 2);
@@ -85,33 +109,33 @@ void SplitParts(const ThinningState& state, SweepWorker& worker) {
   }
   low = std::clamp(RoundUp(low), begin, end);
   high = std::clamp(high / kDirtyGroup * kDirtyGroup, low, end);
-  Begin({begin, low}, worker.parts[0]);
-  Begin({high, end}, worker.parts[1]);
-  Begin({low, high}, worker.parts[2]);
+  Begin({begin, low}, worker.borders[0]);
+  Begin({high, end}, worker.borders[1]);
+  worker.slabs.clear();
+  if (one_slab && low < high) {
+    worker.slabs.push_back({low, high});
+  } else {
+    AddSlabs(state, {low, high}, worker.slabs);
+  }
+  const size_t parts = 2 * WaitingSlabs(steps) + TurnsOf(steps);
+  worker.slab_parts.resize(std::min(worker.slabs.size(), parts));
+  for (size_t slab = 0; slab < worker.slabs.size(); ++slab) {
+    Begin(worker.slabs[slab], worker.PartOf(slab, steps));
+  }
 }
 
-void SplitSlabs(const ThinningState& state, int steps, SweepWorker& worker) {
-  const size_t end = state.brick_count();
-  size_t most = 0;
-  worker.slabs.clear();
-  for (size_t begin = 0; begin < end;) {
-    // Below may be layers without bricks.
-    const int32_t below = LayerOf(state, begin) - 1;
-    const int32_t touched = begin == 0 ? below : std::max(below, LayerOf(state, begin - 1));
-    const size_t next = std::min(RoundUp(FirstFromLayer(state, touched + 2)), end);
-    worker.slabs.push_back({begin, next});
-    most = std::max(most, next - begin);
-    begin = next;
-  }
-  worker.slab_parts.resize(static_cast<size_t>(steps) + 1);
-  for (SweepPart& part : worker.slab_parts) Begin({0, most}, part);
+SweepPart& SweepWorker::PartOf(size_t slab, int steps) {
+  const size_t waiting = WaitingSlabs(steps), after = slabs.size() - 1 - slab;
+  if (slab_parts.size() == slabs.size() || slab < waiting) return slab_parts[slab];
+  if (after < waiting) return slab_parts[waiting + after];
+  return slab_parts[2 * waiting + slab % TurnsOf(steps)];
 }
 
 void FindBorder(const ThinningState& state, const BrickShares& shares, SweepWorker& worker,
                 std::span<DirtyMask> dirty) {
   const exec::Share own = worker.bricks;
   worker.adjacent.clear();
-  for (const SweepPart& part : std::span(worker.parts).first(2)) {
+  for (const SweepPart& part : worker.borders) {
     for (size_t n = part.bricks.begin; n < part.bricks.end; ++n) {
       dirty[n] &= static_cast<DirtyMask>(~kBorderBrick);
       for (const BrickIndex other : state.neighbors[n]) {
@@ -152,11 +176,11 @@ void BeginOpening(const Shells& shells, int32_t shell, exec::Share own, SweepWor
   worker.ghost_openers[1].Begin(shells, {last, end}, shell);
 }
 
-void TellMarks(std::span<const SweepWorker> workers, SweepPartners& partners) {
-  for (const SweepWorker& worker : workers) {
-    for (const SweepPart& part : worker.parts) {
+void TellMarks(std::span<SweepWorker> workers, SweepPartners& partners) {
+  for (SweepWorker& worker : workers) {
+    worker.ForEachPart([&](const SweepPart& part) {
       for (const MarkedBrick& m : part.marks.marked()) partners.Tell(m);
-    }
+    });
   }
 }
 

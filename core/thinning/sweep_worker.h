@@ -33,9 +33,10 @@ struct SweepPart {
 // One worker's bricks and buffers.
 struct alignas(128) SweepWorker {
   exec::Share bricks = {0, 0};
-  // Its bricks near those of others below and above, and the bricks between.
-  std::array<SweepPart, 3> parts;
-  // Used if it works alone, see SweepShells(). Parts take turns at the slabs.
+  // Its bricks near those of others, below and above.
+  std::array<SweepPart, 2> borders;
+  // The bricks between. Each slab touches only the one before and the one after it, and only the
+  // first and the last one touch borders.
   std::vector<exec::Share> slabs;
   std::vector<SweepPart> slab_parts;
   ShellOpener opener;
@@ -55,26 +56,32 @@ struct alignas(128) SweepWorker {
   std::array<uint64_t, 2> shell_points = {0, 0};  // by parity of the shell
 
   bool Owns(BrickIndex n) const { return n >= bricks.begin && n < bricks.end; }
+  // Slabs near a border, which wait for its steps, have parts of their own; the others, of which
+  // one after another completes the pass, take turns.
+  SweepPart& PartOf(size_t slab, int steps);
+  // Calls visit(SweepPart&) for all parts.
+  template <typename Visit>
+  void ForEachPart(Visit visit) {
+    for (SweepPart& part : borders) visit(part);
+    for (SweepPart& part : slab_parts) visit(part);
+  }
 };
 
-// Splits a worker's bricks into parts. Whether a point is removed depends on points up to three
-// steps away, so bricks that are separated from those of others by a layer of bricks do not depend
-// on them.
-void SplitParts(const ThinningState& state, SweepWorker& worker);
-
-// Splits all bricks into slabs, of which only consecutive ones touch, and creates parts for passes
-// of `steps` steps.
-void SplitSlabs(const ThinningState& state, int steps, SweepWorker& worker);
+// Splits a worker's bricks into borders and slabs, and creates parts for passes of `steps` steps.
+// Whether a point is removed depends on points up to three steps away, so bricks that are separated
+// from those of others by a layer of bricks do not depend on them.
+// `one_slab`: all bricks between the borders, and thus all marks of a pass, in one part.
+void SplitBricks(const ThinningState& state, int steps, bool one_slab, SweepWorker& worker);
 
 // Marks the bricks that border on those of other workers and lists these workers. Bricks that no
 // longer border on any stay marked, which only costs time.
-// Needs: SplitParts() was called.
+// Needs: SplitBricks() was called.
 void FindBorder(const ThinningState& state, const BrickShares& shares, SweepWorker& worker,
                 std::span<DirtyMask> dirty);
 
 // Puts bricks to sleep around which nothing changed in this cycle: they were visited in all of its
 // passes, so they are settled. `changed` is the last cycle in which a brick changed.
-// Needs: the last pass listed all bricks that are awake.
+// Needs: the last pass listed all bricks that are awake; the worker has one slab.
 void FallAsleep(const ThinningState& state, const BrickShares& shares,
                 std::span<const int32_t> changed, int32_t cycle, std::span<DirtyMask> dirty,
                 SweepWorker& worker);
@@ -95,7 +102,7 @@ void MarkStubble(StubblePolicy policy, ThinningState& state, std::span<DirtyMask
 void BeginOpening(const Shells& shells, int32_t shell, exec::Share own, SweepWorker& worker);
 
 // Sends all marks of a pass to partners. Needs: marks of ghosts have been removed.
-void TellMarks(std::span<const SweepWorker> workers, SweepPartners& partners);
+void TellMarks(std::span<SweepWorker> workers, SweepPartners& partners);
 
 }  // namespace bccskel
 

@@ -1,6 +1,7 @@
 #ifndef BCCSKEL_CORE_THINNING_WORK_LIST_H_
 #define BCCSKEL_CORE_THINNING_WORK_LIST_H_
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -54,8 +55,11 @@ struct DirtyBricks {
 // a register; it is never cleared, so refilling it costs nothing.
 class BrickLists {
  public:
+  // Only grows.
   void Reserve(size_t bricks) {
-    for (std::vector<BrickIndex>& list : storage_) list.resize(bricks + kDirtyGroup);
+    for (std::vector<BrickIndex>& list : storage_) {
+      list.resize(std::max(list.size(), bricks + kDirtyGroup));
+    }
   }
   std::span<const BrickIndex> Of(Sublattice sublattice) const {
     const auto s = static_cast<size_t>(sublattice);

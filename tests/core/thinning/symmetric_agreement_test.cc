@@ -297,6 +297,21 @@ TEST(SymmetricSlabs, GiveWhatStepsOfTheWholeObjectGive) {
   }
 }
 
+// In a team, slabs run ahead of the steps of their worker's borders.
+TEST(SymmetricSlabs, RunAheadOfBorders) {
+  const auto blob = test::RandomBlob(7, {64, 64, 500}, 400, 7);
+  const Volume tall = VolumeOfPoints(test::WithNoisyBoundary(7, blob, 0.1));
+  for (const SkeletonKind kind : {SkeletonKind::kCurve, SkeletonKind::kSurface}) {
+    const test::ReferenceThinning expected = test::ReferenceThinCounted(tall, Symmetric(kind));
+    for (const int threads : {2, 3, 5, 8}) {
+      const ThinningResult result = Thin(tall, Symmetric(kind), threads);
+      EXPECT_TRUE(result.thin.SortedPoints() == expected.thin) << threads << " threads";
+      EXPECT_EQ(result.isthmuses, expected.isthmuses);
+      EXPECT_EQ(result.passes, expected.passes);
+    }
+  }
+}
+
 // Layers without bricks, above any number of bricks.
 TEST(SymmetricSlabs, EndAtEveryGap) {
   std::vector<LatticePoint> points;
