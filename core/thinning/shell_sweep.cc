@@ -212,7 +212,11 @@ class ShellSweep {
       if (!border.empty()) Take(at, border, worker);
     }
     team_.Arrive(index);
-    if (at.step == 0) return RunAhead(index, at, worker);
+    if (at.step == 0) {
+      // Points may be removed from here on, so all workers must have left the last cycle.
+      if (slabs_run_ahead()) team_.Await(index);
+      return RunAhead(index, at, worker);
+    }
     for (size_t slab = 0; slab < worker.slabs.size(); ++slab) {
       if (at.step > ReachOf(slab, worker)) Take(at, worker.PartOf(slab, rule_.steps()), worker);
     }
