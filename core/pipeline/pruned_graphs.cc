@@ -82,7 +82,7 @@ class LevelPruner {
   }
 
  private:
-  bool IsEnd(LatticePoint p) const { return set_.Contains(p) && set_.Degree(p) == 1; }
+  bool IsEnd(LatticePoint p) const { return set_.Contains(p) && set_.IsEnd(p); }
 
   void AddTurn(LatticePoint end) {
     double level = -1;
@@ -152,7 +152,7 @@ absl::Status ForEachPrunedGraph(const SkeletonGraph& graph, double junction_reac
     pruner.PruneTo(level);
     ThinSkeleton thin = set.ToSkeleton(whole);
     thin.points.ForEachPoint([&](LatticePoint p) {
-      const bool at_junction = set.Degree(p) > 2;
+      const bool at_junction = set.Branches(p);
       thin.levels.push_back(at_junction ? kNoLevel : known.Find(p)->level);
     });
     BCCSKEL_ASSIGN_OR_RETURN(SkeletonGraph pruned, TraceSkeleton(thin, context));

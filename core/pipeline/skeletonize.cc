@@ -306,7 +306,9 @@ class Pipeline {
     }
     const ExactRadius radius(object, distance);
     BCCSKEL_ASSIGN_OR_RETURN(skeleton_.radii, ExactRadii(skeleton_.points, radius, context_));
-    if (IsConverted(options_.source) && !space_.has_value()) search_.emplace(object);
+    if (IsConverted(options_.source) && !space_.has_value()) {
+      search_.emplace(radius.searches() ? radius : ExactRadius(object));
+    }
     if (HasCurves(options_.thinning)) {
       const ExactRadius& single = search_.has_value() ? *search_ : radius;
       BCCSKEL_ASSIGN_OR_RETURN(ThinSkeleton pruned,

@@ -1,7 +1,6 @@
 #include "core/pruning/branch_pruner.h"
 
 #include <algorithm>
-#include <bit>
 #include <limits>
 
 #include "core/exec/stop_poll.h"
@@ -124,7 +123,7 @@ void BranchPruner::JudgeAround(const std::set<LatticePoint>& places) {
   for (LatticePoint p : places) {
     if (!set_.Contains(p)) continue;
     sources.insert(p);
-    if (set_.Degree(p) <= 2) continue;
+    if (!set_.Branches(p)) continue;
     for (LatticePoint q : ClusterOf(set_, p)) sources.insert(q);
   }
   for (LatticePoint p : sources) FindEndsBeyond(p, sources, ends);
@@ -134,18 +133,18 @@ void BranchPruner::JudgeAround(const std::set<LatticePoint>& places) {
 // Stops at other sources, which find the rest, so that long branches are followed once.
 void BranchPruner::FindEndsBeyond(LatticePoint p, const std::set<LatticePoint>& sources,
                                   std::set<LatticePoint>& ends) const {
-  if (set_.Degree(p) == 1) ends.insert(p);
+  if (set_.IsEnd(p)) ends.insert(p);
   ForEachNeighbor(p, set_.NeighborsOf(p), [&](LatticePoint q) {
     if (sources.contains(q)) return;
     LatticePoint previous = p;
     NeighborMask mask = set_.NeighborsOf(q);
-    while (IsPair(mask) && q != p) {
+    while (IsCurvePoint(mask) && q != p) {
       const LatticePoint next = NextPoint(q, mask, previous);
       previous = q;
       q = next;
       mask = set_.NeighborsOf(q);
     }
-    if (std::has_single_bit(mask)) ends.insert(q);
+    if (IsEndPoint(mask)) ends.insert(q);
   });
 }
 

@@ -50,7 +50,7 @@ class BranchPruner {
       const OnRemoved& on_removed = [](LatticePoint, double) {}, TurnedTips* turned = nullptr);
 
  private:
-  bool IsEnd(LatticePoint p) const { return set_.Contains(p) && set_.Degree(p) == 1; }
+  bool IsEnd(LatticePoint p) const { return set_.Contains(p) && set_.IsEnd(p); }
   void NoteTurned(const FreeBranch& branch, TurnedTips& turned) const;
   void JudgeAll();
   void Judge(const FreeBranch& branch);

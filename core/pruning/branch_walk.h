@@ -2,7 +2,6 @@
 #define BCCSKEL_CORE_PRUNING_BRANCH_WALK_H_
 
 #include <algorithm>
-#include <bit>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -16,11 +15,6 @@ struct FreeBranch {
   std::vector<LatticePoint> points;      // the end first; without the junction
   std::optional<LatticePoint> junction;  // none: the path leads to another end
 };
-
-// Whether exactly two neighbors are set, as for the inner points of a curve.
-inline bool IsPair(NeighborMask mask) {
-  return std::has_single_bit(static_cast<NeighborMask>(mask & (mask - 1)));
-}
 
 // The one neighbor in `mask` that is not `previous`. Needs: there is one.
 inline LatticePoint NextPoint(LatticePoint p, NeighborMask mask, LatticePoint previous) {
@@ -36,7 +30,7 @@ inline LatticePoint NextPoint(LatticePoint p, NeighborMask mask, LatticePoint pr
 inline LatticePoint FollowCurve(const ThinSet& set, LatticePoint previous, LatticePoint p,
                                 std::vector<LatticePoint>& points) {
   NeighborMask mask = set.NeighborsOf(p);
-  while (IsPair(mask)) {
+  while (IsCurvePoint(mask)) {
     points.push_back(p);
     const LatticePoint next = NextPoint(p, mask, previous);
     previous = p;
@@ -55,7 +49,7 @@ inline std::vector<LatticePoint> ClusterOf(const ThinSet& set, LatticePoint junc
   std::vector<LatticePoint> cluster = {junction};
   for (size_t n = 0; n < cluster.size() && cluster.size() < kMostClusterPoints; ++n) {
     ForEachNeighbor(cluster[n], set.NeighborsOf(cluster[n]), [&](LatticePoint q) {
-      if (set.Degree(q) > 2 && std::ranges::find(cluster, q) == cluster.end()) {
+      if (set.Branches(q) && std::ranges::find(cluster, q) == cluster.end()) {
         cluster.push_back(q);
       }
     });
@@ -68,7 +62,7 @@ inline FreeBranch BranchFrom(const ThinSet& set, LatticePoint end) {
   FreeBranch branch{{end}, std::nullopt};
   const LatticePoint first = NextPoint(end, set.NeighborsOf(end), end);
   const LatticePoint p = FollowCurve(set, end, first, branch.points);
-  if (std::has_single_bit(set.NeighborsOf(p))) {
+  if (set.IsEnd(p)) {
     branch.points.push_back(p);
   } else {
     branch.junction = p;

@@ -25,7 +25,7 @@ std::optional<LatticePoint> NextToward(const Coordinates& place, LatticePoint en
   for (const LatticePoint offset : kDirections14) {
     const LatticePoint to = end + offset;
     const double way = set.Between(to, place);
-    if (way >= least || set.Contains(to) || !std::has_single_bit(set.NeighborsAround(to))) continue;
+    if (way >= least || set.Contains(to) || !IsEndPoint(set.NeighborsAround(to))) continue;
     if (!may_add(to)) continue;
     next = to;
     least = way;

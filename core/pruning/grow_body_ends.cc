@@ -54,7 +54,7 @@ class BodyEnds {
       const bool left = Follow(ball, on, beside, body);
       if (left && IsSignificant()) return MeasureGrown();
       CutTo(own_);
-      if (left) return;  // other starts lead to the same ridge
+      if (left) return;
     }
   }
 
@@ -76,9 +76,11 @@ class BodyEnds {
   }
 
   // Extends the path along the ridge to its end; not at all if it does not leave the ball as the
-  // end of a body. Returns whether it leaves the ball.
+  // end of a body, for which it is too shallow long before, in most balls. Returns whether other
+  // starts would lead to the same ridge.
   bool Follow(const JunctionBall& ball, const Coordinates& on, double beside, LatticePoint body) {
     const LatticePoint center = path_.front();
+    const double least = std::max(kLeastDepth * ball.radius(), beside / kThinnerBeside);
     double best = 0;
     size_t last = own_;
     bool left = false;
@@ -86,13 +88,11 @@ class BodyEnds {
       const double way = set_.Between(center, *next), depth = depth_.At(*next);
       if (way > kGrowth * ball.radius() + kGrowthUnits) break;
       if (significance_.IsCovered(set_, path_, *next, depth)) return false;
-      if (!left && way >= ball.reach()) {
-        left = true;
-        const double cosine = Dot(on, Unit(set_.Way(center, *next)));
-        const double least = std::max(kLeastDepth * ball.radius(), beside / kThinnerBeside);
-        if (depth < least || cosine < kStraight) {
-          last = own_;
-          break;
+      if (!left) {
+        left = way >= ball.reach();
+        if (depth < least || (left && Dot(on, Unit(set_.Way(center, *next))) < kStraight)) {
+          CutTo(own_);
+          return true;
         }
       }
       set_.Add(*next, static_cast<float>(depth));
@@ -133,8 +133,8 @@ class BodyEnds {
 // are no junctions.
 std::vector<LatticePoint> JunctionsOf(const ThinSet& set, const Significance& significance) {
   std::vector<LatticePoint> points, deepest;
-  set.ForEachPoint([&](LatticePoint p) {
-    if (set.Degree(p) > 2 && significance.MayHaveBodyEnds(set.RadiusOf(p))) points.push_back(p);
+  set.ForEachBranchingPoint([&](LatticePoint p) {
+    if (significance.MayHaveBodyEnds(set.RadiusOf(p))) points.push_back(p);
   });
   std::ranges::sort(points);
   PointTable<char> seen;  // each point of a surface once, which ClusterOf() would visit often
@@ -144,7 +144,7 @@ std::vector<LatticePoint> JunctionsOf(const ThinSet& set, const Significance& si
     std::vector<LatticePoint> cluster = {p};
     for (size_t n = 0; n < cluster.size(); ++n) {
       ForEachNeighbor(cluster[n], set.NeighborsOf(cluster[n]), [&](LatticePoint q) {
-        if (set.Degree(q) <= 2 || seen.Find(q) != nullptr) return;
+        if (!set.Branches(q) || seen.Find(q) != nullptr) return;
         seen.Set(q, 0);
         cluster.push_back(q);
       });

@@ -29,7 +29,7 @@ JunctionBall::JunctionBall(const ThinSet& set, LatticePoint center,
     }
     const LatticePoint p = visited_[n].p;
     const bool outside = n > 0 && set.Between(center, p) >= reach_;
-    if (outside || (n > 0 && set.Degree(p) == 1)) {
+    if (outside || (n > 0 && set.IsEnd(p))) {
       if (exits_.empty() || set.RadiusOf(p) > set.RadiusOf(visited_[body_].p)) body_ = n;
       exits_.push_back(n);
     }
@@ -64,7 +64,7 @@ std::vector<LatticePoint> JunctionBall::WayTo(size_t visited) const {
 
 bool IsBodyEnd(const ThinSet& set, const FreeBranch& branch) {
   const LatticePoint junction = *branch.junction;
-  if (set.Degree(junction) < 3) return false;
+  if (!set.Branches(junction)) return false;
   const double radius = set.RadiusOf(junction);
   const auto exit = std::find_if(branch.points.rbegin(), branch.points.rend(), [&](LatticePoint p) {
     return set.Between(junction, p) >= kExit * radius;

@@ -96,7 +96,7 @@ void CollapsePaths(ThinSet& set, Significance& significance, double threshold,
                    const PointSet& keep) {
   constexpr double kMost = 0.25;  // a spheroid 1.3 times as long as thick has it
   for (const LatticePoint end : set.Ends()) {
-    if (!set.Contains(end) || set.Degree(end) != 1) continue;
+    if (!set.Contains(end) || !set.IsEnd(end)) continue;
     const FreeBranch branch = BranchFrom(set, end);
     const std::vector<LatticePoint>& path = branch.points;
     const bool kept = std::ranges::any_of(path, [&](LatticePoint p) { return keep.contains(p); });
@@ -156,8 +156,8 @@ absl::StatusOr<ThinSkeleton> Prune(const ThinSkeleton& curves, const PrunedObjec
     RemoveSimplePoints(set, kept, poll);
   }
   const Volume& space = in.space != nullptr ? *in.space : in.object;
-  const SurfaceNoise noise = SurfaceNoiseOf(in.object, in.surface_step, in.slabs);
-  const ExactRadius in_space = in.space == nullptr ? in.radius : ExactRadius(space);
+  const SurfaceNoise noise = SurfaceNoiseOf(in.object, in.surface_step, in.slabs, context);
+  const ExactRadius in_space = &space == &in.object ? in.radius : ExactRadius(space);
   Significance significance = SignificanceIn(space, in_space, in, noise);
   std::optional<TipDepths> depths;  // none if no tips are placed
   if (options.tips == TipPlacement::kRidge) depths.emplace(space, in.radius);

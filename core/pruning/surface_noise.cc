@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
 
+#include "core/certificate/brick_sum.h"
 #include "core/distance/border_bricks.h"
 #include "core/volume/brick.h"
 #include "core/volume/brick_neighbors.h"
@@ -37,26 +39,24 @@ std::array<uint64_t, 6> PlanesBeside(const BrickBits& own, const Beside& beside,
 }
 
 struct SurfaceCount {
-  uint64_t points = 0;
-  uint64_t pits = 0;
+  int64_t points = 0;
+  int64_t pits = 0;
 
   void Add(uint64_t own, const std::array<uint64_t, 6>& p) {
     const uint64_t surface = own & ~(p[0] & p[1] & p[2] & p[3] & p[4] & p[5]);
-    if (surface != 0) points += static_cast<uint64_t>(std::popcount(surface));
+    if (surface != 0) points += std::popcount(surface);
     const uint64_t ones_a = p[0] ^ p[1] ^ p[2], twos_a = (p[0] & p[1]) | (p[2] & (p[0] ^ p[1]));
     const uint64_t ones_b = p[3] ^ p[4] ^ p[5], twos_b = (p[3] & p[4]) | (p[5] & (p[3] ^ p[4]));
     const uint64_t four = (twos_a & twos_b) | ((twos_a ^ twos_b) & ones_a & ones_b);
     const uint64_t pit = four & ~own;
-    if (pit != 0) pits += static_cast<uint64_t>(std::popcount(pit));
+    if (pit != 0) pits += std::popcount(pit);
   }
 };
 
-}  // namespace
-
-double Roughness(const Volume& object) {
-  const std::span<const BrickBits> bricks = object.padded_bricks();
+SurfaceCount CountIn(const Volume& object, const exec::Share& share) {
   SurfaceCount count;
-  for (size_t n = 0; n < object.brick_count(); ++n) {
+  const std::span<const BrickBits> bricks = object.padded_bricks();
+  for (size_t n = share.begin; n < share.end; ++n) {
     Beside beside;
     for (size_t way = 0; way < 6; ++way) beside[way] = &bricks[object.neighbors()[n][8 + way]];
     const auto is_full = [](const BrickBits* brick) { return IsFull(*brick); };
@@ -65,13 +65,26 @@ double Roughness(const Volume& object) {
       count.Add(bricks[n].words[k], PlanesBeside(bricks[n], beside, k));
     }
   }
-  return count.points == 0 ? 0
-                           : static_cast<double>(count.pits) / static_cast<double>(count.points);
+  return count;
 }
 
-SurfaceNoise SurfaceNoiseOf(const Volume& object, double step,
-                            const std::array<int32_t, 3>& slabs) {
-  const double rough = std::clamp((Roughness(object) - kSmooth) / (kRough - kSmooth), 0.0, 1.0);
+}  // namespace
+
+double Roughness(const Volume& object, const exec::Context& context) {
+  std::atomic<int64_t> pits = 0;
+  const int64_t points =
+      SumOverBricks(context, object.brick_count(), [&](int, const exec::Share& bricks) {
+        const SurfaceCount count = CountIn(object, bricks);
+        pits += count.pits;
+        return count.points;
+      });
+  return points == 0 ? 0 : static_cast<double>(pits) / static_cast<double>(points);
+}
+
+SurfaceNoise SurfaceNoiseOf(const Volume& object, double step, const std::array<int32_t, 3>& slabs,
+                            const exec::Context& context) {
+  const double rough =
+      std::clamp((Roughness(object, context) - kSmooth) / (kRough - kSmooth), 0.0, 1.0);
   const double least = std::max(step, kLeastNoise);
   const double thin = least + (kMostSteps * step - least) * rough;
   AxisScale edges = AxisScaleOf(object.placement());

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "core/distance/places.h"
+#include "core/exec/context.h"
 #include "core/volume/volume.h"
 
 namespace bccskel {
@@ -15,7 +16,7 @@ namespace bccskel {
 // points among its six axial neighbors; a surface point is an object point with a background point
 // among them. Smooth objects have at most 0.01, however they were sampled; flipping 2, 5 and 10 %
 // of the surface points gives 0.02, 0.04 to 0.05, and 0.06 to 0.09.
-double Roughness(const Volume& object);
+double Roughness(const Volume& object, const exec::Context& context = {});
 
 // The noise allowance: what sampling may add to how far a branch sticks out.
 // Why it depends on the branch: noise makes rows of bumps that are as thin as one step of the
@@ -51,7 +52,8 @@ struct SurfaceNoise {
 // Needs: `step`, the length of a step of the surface: 1, or the shortest edge of a voxel; > 0.
 //        `slabs`: into how many each voxel was cut along x, y and z.
 SurfaceNoise SurfaceNoiseOf(const Volume& object, double step,
-                            const std::array<int32_t, 3>& slabs = {1, 1, 1});
+                            const std::array<int32_t, 3>& slabs = {1, 1, 1},
+                            const exec::Context& context = {});
 
 }  // namespace bccskel
 

@@ -1,7 +1,6 @@
 #include "core/pruning/thin_set.h"
 
 #include <algorithm>
-#include <bit>
 
 #include "core/certificate/neighbor_planes.h"
 #include "core/exec/stop_poll.h"
@@ -25,10 +24,6 @@ ThinSet::ThinSet(const ThinSkeleton& skeleton, const exec::Context& context)
     });
     if (poll.Stopped(n - first)) return;
   }
-}
-
-int ThinSet::Degree(LatticePoint p) const {
-  return std::popcount(static_cast<unsigned>(NeighborsOf(p)));
 }
 
 NeighborMask ThinSet::NeighborsAround(LatticePoint p) const {
@@ -64,7 +59,7 @@ void ThinSet::Remove(LatticePoint p) {
 std::vector<LatticePoint> ThinSet::Ends() const {
   std::vector<LatticePoint> ends;
   points_.ForEach([&](LatticePoint p, const Entry& entry) {
-    if (std::has_single_bit(entry.neighbors)) ends.push_back(p);
+    if (IsEndPoint(entry.neighbors)) ends.push_back(p);
   });
   std::ranges::sort(ends);
   return ends;

@@ -13,6 +13,7 @@
 #include "core/lattice/directions.h"
 #include "core/pruning/point_table.h"
 #include "core/skeleton/thin_skeleton.h"
+#include "core/topology/neighborhood.h"
 #include "core/volume/volume.h"
 
 namespace bccskel {
@@ -34,7 +35,9 @@ class ThinSet {
   float RadiusOf(LatticePoint p) const { return points_.Find(p)->radius; }
   int32_t BirthOf(LatticePoint p) const { return points_.Find(p)->birth; }
   NeighborMask NeighborsOf(LatticePoint p) const { return points_.Find(p)->neighbors; }
-  int Degree(LatticePoint p) const;
+  bool IsEnd(LatticePoint p) const { return IsEndPoint(NeighborsOf(p)); }
+  // Whether p has three or more neighbors, as in a junction or a surface.
+  bool Branches(LatticePoint p) const { return HasThreeNeighbors(NeighborsOf(p)); }
   // The neighbors of any lattice point that are in the set.
   NeighborMask NeighborsAround(LatticePoint p) const;
 
@@ -54,7 +57,7 @@ class ThinSet {
   template <typename Visit>
   void ForEachBranchPoint(Visit visit) const {
     points_.ForEach([&](LatticePoint p, const Entry& entry) {
-      if (std::popcount(static_cast<unsigned>(entry.neighbors)) <= 2) visit(p);
+      if (!HasThreeNeighbors(entry.neighbors)) visit(p);
     });
   }
 
@@ -75,6 +78,13 @@ class ThinSet {
   // The points as a skeleton on the grid of `like`, with its births: points that were removed and
   // added again keep theirs.
   ThinSkeleton ToSkeleton(const ThinSkeleton& like) const;
+  // And for those with three or more.
+  template <typename Visit>
+  void ForEachBranchingPoint(Visit visit) const {
+    points_.ForEach([&](LatticePoint p, const Entry& entry) {
+      if (HasThreeNeighbors(entry.neighbors)) visit(p);
+    });
+  }
 
  private:
   struct Entry {

@@ -1,7 +1,6 @@
 #include "core/pruning/tip_steps.h"
 
 #include <algorithm>
-#include <bit>
 #include <functional>
 
 namespace bccskel {
@@ -51,7 +50,7 @@ void TipSteps::Find(std::span<const LatticePoint> path, LatticePoint anchor, dou
 bool TipSteps::IsFreeWay(LatticePoint tip, LatticePoint next, LatticePoint anchor) {
   if (!bricks_.Contains(next) || set_.Contains(next)) return false;
   if (set_.Between(next, anchor) <= set_.Between(tip, anchor)) return false;
-  return std::has_single_bit(set_.NeighborsAround(next));
+  return IsEndPoint(set_.NeighborsAround(next));
 }
 
 // Between the ways a -> b and b -> c, by the law of cosines.

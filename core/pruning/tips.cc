@@ -59,7 +59,7 @@ class TipPlacer {
         noise_(noise) {}
 
   void Place(LatticePoint end) {
-    if (!set_.Contains(end) || set_.Degree(end) != 1) return;
+    if (!set_.Contains(end) || !set_.IsEnd(end)) return;
     FreeBranch branch = BranchFrom(set_, end);
     FindRoot(branch);
     if (CutFlat(branch)) return;

@@ -27,7 +27,7 @@ struct Arm {
 Arm ArmFrom(const ThinSet& set, LatticePoint fork, LatticePoint first) {
   Arm arm{fork, {}, false, 0};
   const LatticePoint p = FollowCurve(set, fork, first, arm.points);
-  arm.is_free = std::has_single_bit(set.NeighborsOf(p));
+  arm.is_free = set.IsEnd(p);
   if (arm.is_free) arm.points.push_back(p);
   return arm;
 }
@@ -36,7 +36,7 @@ std::vector<Arm> ArmsOf(const ThinSet& set, std::span<const LatticePoint> cluste
   std::vector<Arm> arms;
   for (LatticePoint p : cluster) {
     ForEachNeighbor(p, set.NeighborsOf(p), [&](LatticePoint q) {
-      if (set.Degree(q) <= 2) arms.push_back(ArmFrom(set, p, q));
+      if (!set.Branches(q)) arms.push_back(ArmFrom(set, p, q));
     });
   }
   return arms;

@@ -222,15 +222,8 @@ class ShellSweep {
     }
   }
 
-  // The steps that a slab takes before the borders take their second: those for which no border has
-  // to be further. A step of a slab reads what the previous step left in the adjacent slabs, and
-  // their points, which they remove later.
   int ReachOf(size_t slab, const Worker& worker) const {
-    if (!slabs_run_ahead()) return 0;
-    size_t reach = static_cast<size_t>(rule_.steps());
-    if (!worker.borders[0].empty()) reach = std::min(reach, slab + 1);
-    if (!worker.borders[1].empty()) reach = std::min(reach, worker.slabs.size() - slab);
-    return static_cast<int>(reach);
+    return slabs_run_ahead() ? worker.ReachOf(slab, rule_.steps()) : 0;
   }
 
   // While a slab is at its first step, each slab before it is one step further, so that all data of

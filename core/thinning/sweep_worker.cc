@@ -131,6 +131,13 @@ SweepPart& SweepWorker::PartOf(size_t slab, int steps) {
   return slab_parts[2 * waiting + slab % TurnsOf(steps)];
 }
 
+int SweepWorker::ReachOf(size_t slab, int steps) const {
+  size_t reach = static_cast<size_t>(steps);
+  if (!borders[0].empty()) reach = std::min(reach, slab + 1);
+  if (!borders[1].empty()) reach = std::min(reach, slabs.size() - slab);
+  return static_cast<int>(reach);
+}
+
 void FindBorder(const ThinningState& state, const BrickShares& shares, SweepWorker& worker,
                 std::span<DirtyMask> dirty) {
   const exec::Share own = worker.bricks;

@@ -59,6 +59,9 @@ struct alignas(128) SweepWorker {
   // Slabs near a border, which wait for its steps, have parts of their own; the others, of which
   // one after another completes the pass, take turns.
   SweepPart& PartOf(size_t slab, int steps);
+  // The steps that a slab can take once the borders have taken their first. A step of a slab reads
+  // what the previous step left in the adjacent slabs, and their points, which they remove later.
+  int ReachOf(size_t slab, int steps) const;
   // Calls visit(SweepPart&) for all parts.
   template <typename Visit>
   void ForEachPart(Visit visit) {
