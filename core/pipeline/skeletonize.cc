@@ -221,9 +221,13 @@ class Pipeline {
   }
 
   // Curves are centered in discs as wide as the exact radii.
-  absl::Status Center(const Volume& object, const DistanceField& distance,
+  absl::Status Center(const Volume& object, DistanceField& distance,
                       const std::vector<float>& exact) {
     if (options_.distance != DistanceKind::kEuclidean) return absl::OkStatus();
+    if (MayMeasureAnew()) {
+      const uint64_t searches = kMostDistancesOfPoint * skeleton_.points.PointCount();
+      BCCSKEL_RETURN_IF_ERROR(PrepareRadii(object, searches, distance, context_));
+    }
     const bool differ = exact != skeleton_.radii;
     if (differ) SetRadii(exact, skeleton_.points, result_.graph);
     BCCSKEL_RETURN_IF_ERROR(CenterCurves(object, distance, context_, result_.graph));
@@ -237,6 +241,9 @@ class Pipeline {
     const bool depths = DepthsOf(options_.thinning.method) == Depths::kWanted;
     return space_.has_value() || (depths && options_.distance != DistanceKind::kEuclidean);
   }
+
+  // Whether the distances of the object, if they were not kept, may be measured once more.
+  bool MayMeasureAnew() const { return peeler_ == nullptr && !space_.has_value(); }
 
   absl::StatusOr<DistanceField> MeasureDistances(const Volume& object, DistanceKind kind) {
     return space_.has_value() ? MeasureIn(*space_, object, kind, context_)
@@ -296,10 +303,10 @@ class Pipeline {
   }
 
   absl::Status MeasureAndPrune(const Volume& object, DistanceField& distance) {
-    if (peeler_ == nullptr && !space_.has_value()) {
-      const uint64_t searches =
-          skeleton_.points.PointCount() *
-          (options_.distance == DistanceKind::kEuclidean ? kMostDistancesOfPoint : 1);
+    if (MayMeasureAnew()) {
+      // Centering, of the points that pruning leaves, may need the field in any case.
+      const uint64_t weight = options_.distance == DistanceKind::kEuclidean ? 4 : 1;
+      const uint64_t searches = weight * skeleton_.points.PointCount();
       BCCSKEL_RETURN_IF_ERROR(PrepareRadii(object, searches, distance, context_));
     } else if (peeler_ == nullptr && distance.kind() != DistanceKind::kEuclidean) {
       BCCSKEL_ASSIGN_OR_RETURN(distance, MeasureDistances(object, DistanceKind::kEuclidean));
