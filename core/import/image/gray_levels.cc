@@ -12,7 +12,7 @@ namespace bccskel {
 namespace {
 
 // Of pairs or values: fewer tell nothing.
-constexpr int64_t kFewest = 256;
+constexpr size_t kFewest = 256;
 
 // Needs: sorted values.
 double OtsuThreshold(const std::vector<double>& values) {
@@ -43,11 +43,15 @@ template <typename T>
 void GrayLevels::AddRow(std::span<const T> row) {
   T before = 0;
   for (const T value : row) {
-    if (!std::isfinite(static_cast<double>(value))) continue;
-    values_.push_back(static_cast<double>(value));
-    if (value != 0 && before != 0) {
-      ++pairs_;
-      if (value != before) ++unequal_;
+    if (value == 0) {
+      ++zeros_;
+    } else {
+      if (!std::isfinite(static_cast<double>(value))) continue;
+      values_.push_back(static_cast<double>(value));
+      if (before != 0) {
+        ++pairs_;
+        if (value != before) ++unequal_;
+      }
     }
     before = value;
   }
@@ -83,6 +87,7 @@ void GrayLevels::Add(const ImageSlice& slice) {
 std::optional<double> GrayLevels::Threshold() const {
   if (pairs_ < kFewest || 2 * unequal_ <= pairs_) return std::nullopt;
   std::vector<double> values = values_;
+  values.insert(values.end(), zeros_, 0);
   std::ranges::sort(values);
   return OtsuThreshold(values);
 }
@@ -93,10 +98,10 @@ bool GrayLevels::HasSeveralLabels() const {
 }
 
 bool GrayLevels::HasBothSigns() const {
-  const auto below = std::ranges::count_if(values_, [](double value) { return value < 0; });
-  const auto above = std::ranges::count_if(values_, [](double value) { return value > 0; });
-  const auto all = std::ssize(values_), zeros = all - below - above;
-  return all >= kFewest && below > 0 && above > 0 && 100 * zeros < all;
+  const auto is_below = [](double value) { return value < 0; };
+  const auto below = static_cast<size_t>(std::ranges::count_if(values_, is_below));
+  const size_t all = values_.size() + zeros_;
+  return all >= kFewest && below > 0 && below < values_.size() && 100 * zeros_ < all;
 }
 
 }  // namespace bccskel

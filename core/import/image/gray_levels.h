@@ -1,6 +1,7 @@
 #ifndef BCCSKEL_CORE_IMPORT_IMAGE_GRAY_LEVELS_H_
 #define BCCSKEL_CORE_IMPORT_IMAGE_GRAY_LEVELS_H_
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <unordered_map>
@@ -44,9 +45,10 @@ class GrayLevels {
 
   int64_t step_;  // rows from one that is seen to the next
   int64_t next_row_ = 0;
-  std::vector<double> values_;
-  int64_t pairs_ = 0;  // of neighbors that are not 0
-  int64_t unequal_ = 0;
+  std::vector<double> values_;  // without zeros, which most voxels are
+  size_t zeros_ = 0;
+  size_t pairs_ = 0;  // of neighbors that are not 0
+  size_t unequal_ = 0;
   std::unordered_map<uint64_t, Neighbors> labels_;
 };
 
