@@ -129,29 +129,44 @@ class BodyEnds {
   size_t own_ = 0;                  // of the path, the points that were there before
 };
 
-// The deepest point of each junction's cluster, of those in balls that are large enough. Surfaces
-// are no junctions.
+// The points of a junction; none for a surface, which is followed no farther than to a part that
+// was seen before. `in_surface`: for each point seen, whether it is part of a surface.
+std::vector<LatticePoint> JunctionAt(LatticePoint p, const ThinSet& set,
+                                     PointTable<char>& in_surface) {
+  std::vector<LatticePoint> points = {p};
+  in_surface.Set(p, 0);
+  bool is_surface = false;
+  for (size_t n = 0; n < points.size() && !is_surface; ++n) {
+    ForEachNeighbor(points[n], set.NeighborsOf(points[n]), [&](LatticePoint q) {
+      if (is_surface || !set.Branches(q)) return;
+      if (const char* seen = in_surface.Find(q); seen != nullptr) {
+        is_surface = *seen != 0;
+        return;
+      }
+      in_surface.Set(q, 0);
+      points.push_back(q);
+      is_surface = points.size() >= kMostClusterPoints;
+    });
+  }
+  if (!is_surface) return points;
+  for (LatticePoint q : points) in_surface.Set(q, 1);
+  return {};
+}
+
+// The deepest point of each junction, of those in balls that are large enough.
 std::vector<LatticePoint> JunctionsOf(const ThinSet& set, const Significance& significance) {
   std::vector<LatticePoint> points, deepest;
   set.ForEachBranchingPoint([&](LatticePoint p) {
     if (significance.MayHaveBodyEnds(set.RadiusOf(p))) points.push_back(p);
   });
   std::ranges::sort(points);
-  PointTable<char> seen;  // each point of a surface once, which ClusterOf() would visit often
+  PointTable<char> in_surface;
   for (LatticePoint p : points) {
-    if (seen.Find(p) != nullptr) continue;
-    seen.Set(p, 0);
-    std::vector<LatticePoint> cluster = {p};
-    for (size_t n = 0; n < cluster.size(); ++n) {
-      ForEachNeighbor(cluster[n], set.NeighborsOf(cluster[n]), [&](LatticePoint q) {
-        if (!set.Branches(q) || seen.Find(q) != nullptr) return;
-        seen.Set(q, 0);
-        cluster.push_back(q);
-      });
-    }
-    if (cluster.size() >= kMostClusterPoints) continue;
+    if (in_surface.Find(p) != nullptr) continue;
+    const std::vector<LatticePoint> junction = JunctionAt(p, set, in_surface);
+    if (junction.empty()) continue;
     deepest.push_back(
-        *std::ranges::max_element(cluster, {}, [&](LatticePoint q) { return set.RadiusOf(q); }));
+        *std::ranges::max_element(junction, {}, [&](LatticePoint q) { return set.RadiusOf(q); }));
   }
   return deepest;
 }
