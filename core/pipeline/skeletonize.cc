@@ -304,9 +304,10 @@ class Pipeline {
 
   absl::Status MeasureAndPrune(const Volume& object, DistanceField& distance) {
     if (MayMeasureAnew()) {
-      // Centering, of the points that pruning leaves, may need the field in any case.
-      const uint64_t weight = options_.distance == DistanceKind::kEuclidean ? 4 : 1;
-      const uint64_t searches = weight * skeleton_.points.PointCount();
+      // Centering comes later, and how many points pruning leaves for it is not known yet. If it
+      // then needs the field, at most a quarter of the field's cost was spent on searches.
+      const uint64_t searches =
+          (options_.distance == DistanceKind::kEuclidean ? 4 : 1) * skeleton_.points.PointCount();
       BCCSKEL_RETURN_IF_ERROR(PrepareRadii(object, searches, distance, context_));
     } else if (peeler_ == nullptr && distance.kind() != DistanceKind::kEuclidean) {
       BCCSKEL_ASSIGN_OR_RETURN(distance, MeasureDistances(object, DistanceKind::kEuclidean));

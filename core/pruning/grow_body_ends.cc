@@ -54,7 +54,7 @@ class BodyEnds {
       const bool left = Follow(ball, on, beside, body);
       if (left && IsSignificant()) return MeasureGrown();
       CutTo(own_);
-      if (left) return;
+      if (left) return;  // other starts lead to the same ridge
     }
   }
 
@@ -76,11 +76,9 @@ class BodyEnds {
   }
 
   // Extends the path along the ridge to its end; not at all if it does not leave the ball as the
-  // end of a body, for which it is too shallow long before, in most balls. Returns whether other
-  // starts would lead to the same ridge.
+  // end of a body. Returns whether it leaves the ball.
   bool Follow(const JunctionBall& ball, const Coordinates& on, double beside, LatticePoint body) {
     const LatticePoint center = path_.front();
-    const double least = std::max(kLeastDepth * ball.radius(), beside / kThinnerBeside);
     double best = 0;
     size_t last = own_;
     bool left = false;
@@ -88,11 +86,13 @@ class BodyEnds {
       const double way = set_.Between(center, *next), depth = depth_.At(*next);
       if (way > kGrowth * ball.radius() + kGrowthUnits) break;
       if (significance_.IsCovered(set_, path_, *next, depth)) return false;
-      if (!left) {
-        left = way >= ball.reach();
-        if (depth < least || (left && Dot(on, Unit(set_.Way(center, *next))) < kStraight)) {
-          CutTo(own_);
-          return true;
+      if (!left && way >= ball.reach()) {
+        left = true;
+        const double cosine = Dot(on, Unit(set_.Way(center, *next)));
+        const double least = std::max(kLeastDepth * ball.radius(), beside / kThinnerBeside);
+        if (depth < least || cosine < kStraight) {
+          last = own_;
+          break;
         }
       }
       set_.Add(*next, static_cast<float>(depth));
@@ -156,7 +156,7 @@ std::vector<LatticePoint> JunctionAt(LatticePoint p, const ThinSet& set,
 // The deepest point of each junction, of those in balls that are large enough.
 std::vector<LatticePoint> JunctionsOf(const ThinSet& set, const Significance& significance) {
   std::vector<LatticePoint> points, deepest;
-  set.ForEachBranchingPoint([&](LatticePoint p) {
+  set.ForEachJunctionPoint([&](LatticePoint p) {
     if (significance.MayHaveBodyEnds(set.RadiusOf(p))) points.push_back(p);
   });
   std::ranges::sort(points);

@@ -13,7 +13,7 @@ PruningLevels PruningLevelsOf(ThinSet set, Significance& significance, PruningRu
   constexpr double kNever = std::numeric_limits<double>::infinity();
   PruningLevels levels;
   StopPoll poll(context);
-  set.ForEachBranchPoint([&](LatticePoint p) {
+  set.ForEachCurvePoint([&](LatticePoint p) {
     if (!poll.Stopped()) levels.Set(p, kNever);
   });
   double level = 0;

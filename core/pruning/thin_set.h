@@ -37,7 +37,7 @@ class ThinSet {
   NeighborMask NeighborsOf(LatticePoint p) const { return points_.Find(p)->neighbors; }
   bool IsEnd(LatticePoint p) const { return IsEndPoint(NeighborsOf(p)); }
   // Whether p has three or more neighbors, as in a junction or a surface.
-  bool Branches(LatticePoint p) const { return HasThreeNeighbors(NeighborsOf(p)); }
+  bool Branches(LatticePoint p) const { return HasThreeOrMore(NeighborsOf(p)); }
   // The neighbors of any lattice point that are in the set.
   NeighborMask NeighborsAround(LatticePoint p) const;
 
@@ -55,9 +55,17 @@ class ThinSet {
   }
   // The same for points with at most two neighbors: inner points of curves and ends.
   template <typename Visit>
-  void ForEachBranchPoint(Visit visit) const {
+  void ForEachCurvePoint(Visit visit) const {
     points_.ForEach([&](LatticePoint p, const Entry& entry) {
-      if (!HasThreeNeighbors(entry.neighbors)) visit(p);
+      if (!HasThreeOrMore(entry.neighbors)) visit(p);
+    });
+  }
+
+  // And for those with three or more, as in junctions and surfaces.
+  template <typename Visit>
+  void ForEachJunctionPoint(Visit visit) const {
+    points_.ForEach([&](LatticePoint p, const Entry& entry) {
+      if (HasThreeOrMore(entry.neighbors)) visit(p);
     });
   }
 
@@ -78,13 +86,6 @@ class ThinSet {
   // The points as a skeleton on the grid of `like`, with its births: points that were removed and
   // added again keep theirs.
   ThinSkeleton ToSkeleton(const ThinSkeleton& like) const;
-  // And for those with three or more.
-  template <typename Visit>
-  void ForEachBranchingPoint(Visit visit) const {
-    points_.ForEach([&](LatticePoint p, const Entry& entry) {
-      if (HasThreeNeighbors(entry.neighbors)) visit(p);
-    });
-  }
 
  private:
   struct Entry {

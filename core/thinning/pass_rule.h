@@ -46,8 +46,8 @@ struct PassStep {
   int step = 0;       // within the pass
 };
 
-// How a pass chooses the points to remove. The object does not change until all steps of a pass are
-// done, and no worker begins a step before all have finished the one before.
+// How a pass chooses the points to remove. A step of a brick begins when the bricks around it have
+// finished the step before, and their points change only after the brick's last step.
 // Threads: Mark() and Finish() are called by several workers at once, for different bricks.
 class PassRule {
  public:

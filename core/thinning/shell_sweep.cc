@@ -91,6 +91,7 @@ class ShellSweep {
         if (team_.parting() && !JoinedInOne(index, worker)) return;
       } while (shell == last_ && TotalRemoved() != before);
       if (index == 0) Report(shell);
+      if (after_shell_) team_.Meet(index);
     }
   }
 
@@ -140,7 +141,10 @@ class ShellSweep {
 
   void TakeOver(Worker& other, Worker& first) {
     first.opener.TakeOver(other.opener);
-    for (size_t n = 0; n < 2; ++n) first.ghost_openers[n].TakeOver(other.ghost_openers[n]);
+    for (size_t n = 0; n < 2; ++n) {
+      first.ghost_openers[n].TakeOver(other.ghost_openers[n]);
+      first.shell_points[n] += other.shell_points[n];
+    }
     Worker nothing_to_do;
     nothing_to_do.removed = other.removed;
     other = std::move(nothing_to_do);
@@ -205,20 +209,19 @@ class ShellSweep {
 
   // A step of a pass, the last of which removes points. Processes the bricks that border on others'
   // first and then signals; while this worker processes the rest, others learn that they are done,
-  // so that hardly any worker has to wait.
+  // so that hardly any worker has to wait. After the first step of the borders, slabs take further
+  // ones.
   void Step(int index, const PassStep& at, Worker& worker) {
     if (index == 0) context_.Yield();
     for (Part& border : worker.borders) {
       if (!border.empty()) Take(at, border, worker);
     }
     team_.Arrive(index);
-    if (at.step == 0) {
-      // Points may be removed from here on, so all workers must have left the last cycle.
-      if (slabs_run_ahead()) team_.Await(index);
-      return RunAhead(index, at, worker);
-    }
+    if (at.step == 0) return RunAhead(index, at, worker);
     for (size_t slab = 0; slab < worker.slabs.size(); ++slab) {
-      if (at.step > ReachOf(slab, worker)) Take(at, worker.PartOf(slab, rule_.steps()), worker);
+      if (at.step <= ReachOf(slab, worker)) continue;
+      if (index == 0) context_.Yield();
+      Take(at, worker.PartOf(slab, rule_.steps()), worker);
     }
   }
 
@@ -236,8 +239,10 @@ class ShellSweep {
         const size_t slab = n - step;
         at.step = static_cast<int>(step);
         if (at.step > ReachOf(slab, worker)) continue;
+        // No points are removed before all workers have left the last cycle.
+        if (step == steps) team_.Await(index);
         Part& part = worker.PartOf(slab, rule_.steps());
-        part.bricks = worker.slabs[slab];
+        part.bricks = worker.slabs[slab];  // parts take turns
         Take(at, part, worker);
       }
     }

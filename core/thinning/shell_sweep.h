@@ -18,7 +18,7 @@ struct SweepPlan {
   const Shells& shells;
   int32_t last = 0;  // shell
   StubblePolicy stubble = StubblePolicy::kKeepTwo;
-  // Called on worker 0 after each shell, while no worker removes points.
+  // Called on worker 0 after each shell, while the other workers wait.
   std::function<void(int32_t shell)> after_shell = nullptr;
   // Null: this sweep has the whole object.
   SweepPartners* partners = nullptr;
@@ -40,8 +40,8 @@ struct SweepTotals {
 //        shell cycles repeat until a whole cycle removes nothing.
 // Paper: Figs. 9 and 10; Condition 5 (candidates are the remaining points of shells <= the current
 //        one) and Condition 6 (stubble points are removed in the same pass).
-// Why it is right: a pass marks points on a frozen object and removes them afterwards, as the
-//   proofs of the rules require, for any order and any number of workers.
+// Why it is right: a pass marks points on an object that does not change around them and removes
+//   them afterwards, as the proofs of the rules require, for any order and any number of workers.
 // Cost:  with several passes per cycle, each pass visits a brick until neither the brick nor one
 //        around it has changed for a whole cycle; after that, and always with one pass per cycle,
 //        only after a change.

@@ -30,10 +30,10 @@ size_t WaitingSlabs(int steps) { return static_cast<size_t>(std::max(steps - 1, 
 // So many slabs are in work at a time.
 size_t TurnsOf(int steps) { return static_cast<size_t>(steps) + 1; }
 
-// Below a slab may be layers without bricks.
+// Each slab begins in the first layer that the one before the last slab does not touch.
 void AddSlabs(const ThinningState& state, exec::Share bricks, std::vector<exec::Share>& slabs) {
   for (size_t begin = bricks.begin; begin < bricks.end;) {
-    const int32_t below = LayerOf(state, begin) - 1;
+    const int32_t below = LayerOf(state, begin) - 1;  // maybe a layer without bricks
     const int32_t touched = begin == 0 ? below : std::max(below, LayerOf(state, begin - 1));
     const size_t next = std::min(RoundUp(FirstFromLayer(state, touched + 2)), bricks.end);
     slabs.push_back({begin, next});
@@ -103,12 +103,13 @@ void Clear(BricksByOwner& bricks) {
 void SplitBricks(const ThinningState& state, int steps, bool one_slab, SweepWorker& worker) {
   const auto [begin, end] = worker.bricks;
   size_t low = begin, high = end;
-  if (begin > 0 && begin < end) low = FirstFromLayer(state, LayerOf(state, begin - 1) + 2);
-  if (begin < end && end < state.brick_count()) {
-    high = FirstFromLayer(state, LayerOf(state, end) - 1);
+  if (begin > 0 && begin < end) {
+    low = std::clamp(RoundUp(FirstFromLayer(state, LayerOf(state, begin - 1) + 2)), begin, end);
   }
-  low = std::clamp(RoundUp(low), begin, end);
-  high = std::clamp(high / kDirtyGroup * kDirtyGroup, low, end);
+  if (begin < end && end < state.brick_count()) {
+    high = FirstFromLayer(state, LayerOf(state, end) - 1) / kDirtyGroup * kDirtyGroup;
+    high = std::clamp(high, low, end);
+  }
   Begin({begin, low}, worker.borders[0]);
   Begin({high, end}, worker.borders[1]);
   worker.slabs.clear();
@@ -183,8 +184,8 @@ void BeginOpening(const Shells& shells, int32_t shell, exec::Share own, SweepWor
   worker.ghost_openers[1].Begin(shells, {last, end}, shell);
 }
 
-void TellMarks(std::span<SweepWorker> workers, SweepPartners& partners) {
-  for (SweepWorker& worker : workers) {
+void TellMarks(std::span<const SweepWorker> workers, SweepPartners& partners) {
+  for (const SweepWorker& worker : workers) {
     worker.ForEachPart([&](const SweepPart& part) {
       for (const MarkedBrick& m : part.marks.marked()) partners.Tell(m);
     });

@@ -52,14 +52,14 @@ struct alignas(128) SweepWorker {
   BricksByOwner beside_sleepers_elsewhere;
   std::vector<MarkedBrick> ghost_marks;  // what its ghosts lose in this pass
   uint64_t removed = 0;
-  uint64_t visits = 0;                            // of bricks, since ranges were last considered
   std::array<uint64_t, 2> shell_points = {0, 0};  // by parity of the shell
 
   bool Owns(BrickIndex n) const { return n >= bricks.begin && n < bricks.end; }
   // Slabs near a border, which wait for its steps, have parts of their own; the others, of which
   // one after another completes the pass, take turns.
   SweepPart& PartOf(size_t slab, int steps);
-  // The steps that a slab can take once the borders have taken their first. A step of a slab reads
+  // The steps that a slab can take once the borders have taken their first; they take each of the
+  // others after all workers have met. A step of a slab reads
   // what the previous step left in the adjacent slabs, and their points, which they remove later.
   int ReachOf(size_t slab, int steps) const;
   // Calls visit(SweepPart&) for all parts.
@@ -67,6 +67,11 @@ struct alignas(128) SweepWorker {
   void ForEachPart(Visit visit) {
     for (SweepPart& part : borders) visit(part);
     for (SweepPart& part : slab_parts) visit(part);
+  }
+  template <typename Visit>
+  void ForEachPart(Visit visit) const {
+    for (const SweepPart& part : borders) visit(part);
+    for (const SweepPart& part : slab_parts) visit(part);
   }
 };
 
@@ -105,7 +110,7 @@ void MarkStubble(StubblePolicy policy, ThinningState& state, std::span<DirtyMask
 void BeginOpening(const Shells& shells, int32_t shell, exec::Share own, SweepWorker& worker);
 
 // Sends all marks of a pass to partners. Needs: marks of ghosts have been removed.
-void TellMarks(std::span<SweepWorker> workers, SweepPartners& partners);
+void TellMarks(std::span<const SweepWorker> workers, SweepPartners& partners);
 
 }  // namespace bccskel
 

@@ -23,9 +23,7 @@ constexpr NeighborMask WithoutFirst(NeighborMask mask) {
 }
 constexpr bool IsEndPoint(NeighborMask mask) { return mask != 0 && WithoutFirst(mask) == 0; }
 constexpr bool IsCurvePoint(NeighborMask mask) { return IsEndPoint(WithoutFirst(mask)); }
-constexpr bool HasThreeNeighbors(NeighborMask mask) {
-  return WithoutFirst(WithoutFirst(mask)) != 0;
-}
+constexpr bool HasThreeOrMore(NeighborMask mask) { return WithoutFirst(WithoutFirst(mask)) != 0; }
 
 // For each neighbor n in bit order, the neighbors of n that are neighbors of the point too.
 constexpr std::array<NeighborMask, kNeighborCount> ComputeSharedNeighbors() {

@@ -29,7 +29,8 @@ TEST_F(GrowAlongTest, ReplacesTheEndByACurveThatTouchesNothingElse) {
   EXPECT_EQ(path_[5], (LatticePoint{20, 40, 40}));
   EXPECT_LT(set_->Between(path_.back(), places_.back()), 3);
   EXPECT_EQ(set_->Ends(), (std::vector<LatticePoint>{path_.front(), path_.back()}));
-  for (size_t n = 1; n + 1 < path_.size(); ++n) EXPECT_TRUE(IsCurvePoint(set_->NeighborsOf(path_[n]))) << n;
+  for (size_t n = 1; n + 1 < path_.size(); ++n)
+    EXPECT_TRUE(IsCurvePoint(set_->NeighborsOf(path_[n]))) << n;
 }
 
 TEST_F(GrowAlongTest, ChangesNothingWhereTheLastPlaceIsNotReached) {

@@ -101,18 +101,26 @@ TEST(Thinning, GivesTheSameBitsWhenATeamShrinksToOneWorker) {
 // may be alone from the start: then another team tries.
 TEST(Thinning, LeavesThreadsToOthersBetweenShellsAndGivesTheSameBits) {
   const Volume object = Blob(12);
-  const Volume alone = Thin(object, {}).thin;
+  std::vector<uint64_t> points_alone;
+  exec::Context one;
+  one.on_shell = [&](const exec::ShellProgress& p) { points_alone.push_back(p.points); };
+  const Volume alone = Thin(object, {}, one).thin;
   int asked_together = 0;
   for (int tries = 0; tries < 50 && asked_together == 0; ++tries) {
     test::TeamContext context(2);
     context.patience = 1e9;
     int shells = 0, asked_alone = 0;
-    context.on_shell = [&](const exec::ShellProgress&) { ++shells; };
+    std::vector<uint64_t> points;
+    context.on_shell = [&](const exec::ShellProgress& p) {
+      points.push_back(p.points);
+      ++shells;
+    };
     context.share = [&] {
       if (shells > 0) ++(shells > 3 ? asked_alone : asked_together);
       return shells >= 2 ? 1 : 2;
     };
     EXPECT_TRUE(Thin(object, {}, context).thin == alone);
+    EXPECT_EQ(points, points_alone);
     EXPECT_GT(shells, 4);
     EXPECT_EQ(asked_alone, 0);
   }
