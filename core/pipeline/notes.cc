@@ -10,6 +10,7 @@
 #include "core/certificate/describe_changes.h"
 #include "core/distance/chamfer_weights.h"
 #include "core/distance/places.h"
+#include "core/skeleton/narrow_loops.h"
 #include "core/skeleton/skeleton_figures.h"
 
 namespace bccskel {
@@ -51,8 +52,11 @@ void AddNarrowLoops(const SkeletonizeResult& result, Notes& notes) {
   if (cut > 0 && (cut < width || !dust)) return;
   const auto loops = static_cast<int64_t>(CountNarrowLoops(result.graph, width));
   if (loops == 0) return;
-  const std::string what = Counted(loops, "loop is", "loops are") +
-                           absl::StrFormat(" narrower than %g voxels", width / (edge * unit));
+  const AxisScale scale = AxisScaleOf(placement);
+  const bool cubes = std::ranges::max(scale) == std::ranges::min(scale);
+  const std::string what = "at least " + Counted(loops, "loop is", "loops are") +
+                           absl::StrFormat(" narrower than %g %s", width / (edge * unit),
+                                           cubes ? "voxels" : "times the shortest edge of a voxel");
   if (cut > 0) {
     notes.push_back(what +
                     "; tunnels with another component in them stay open: --min-component "

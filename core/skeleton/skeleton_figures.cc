@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <span>
 
 #include "core/distance/places.h"
@@ -128,33 +127,6 @@ ComponentFigures TotalOf(const GraphComponents& components) {
     total.max_radius = std::max(total.max_radius, one.max_radius);
   }
   return total;
-}
-
-// Edges between the same nodes follow each other.
-uint64_t CountNarrowLoops(const SkeletonGraph& graph, double width) {
-  uint64_t narrow = 0;
-  const auto same_nodes = [](const SkeletonEdge& a, const SkeletonEdge& b) {
-    return a.source == b.source && a.target == b.target;
-  };
-  for (auto first = graph.edges.begin(); first != graph.edges.end();) {
-    const auto last = std::find_if_not(
-        first, graph.edges.end(), [&](const SkeletonEdge& e) { return same_nodes(*first, e); });
-    const bool alone = first->source == first->target;
-    if (alone || last - first > 1) {
-      std::vector<EdgeFigures> sides;
-      for (auto edge = first; edge != last; ++edge) sides.push_back(FiguresOf(graph, *edge));
-      if (alone) sides.push_back({});  // each of these closes by itself
-      std::ranges::sort(sides, {}, &EdgeFigures::length);
-      for (size_t n = 1; n < sides.size(); ++n) {
-        const double length = sides[0].length + sides[n].length;
-        const double area =
-            sides[0].length * sides[0].mean_radius + sides[n].length * sides[n].mean_radius;
-        if (length / std::numbers::pi - 2 * area / length <= width) ++narrow;
-      }
-    }
-    first = last;
-  }
-  return narrow;
 }
 
 }  // namespace bccskel

@@ -45,12 +45,6 @@ GraphComponents ComponentsOf(const SkeletonGraph& graph);
 // The sum of all components.
 ComponentFigures TotalOf(const GraphComponents& components);
 
-// The number of loops around tunnels narrower than `width`, in world units. The circumference over
-// pi minus two mean radii of the curve is the width of a round tunnel and an upper bound for any
-// other. Counts loops of one edge, and of two edges between the same nodes; loops of more edges are
-// not counted.
-uint64_t CountNarrowLoops(const SkeletonGraph& graph, double width);
-
 // The smooth curve through the points of an edge, one position for each, in world units: the mean
 // of the point and up to four on either side, the farthest two at half weight, each moved to the
 // middle by its shift. A path on a lattice is a staircase, up to 24 % too long; this curve is not.

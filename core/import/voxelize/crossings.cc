@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/exec/disjoint_sets.h"
 #include "core/exec/stop_poll.h"
 #include "core/lattice/lattice_point.h"
 
@@ -47,14 +48,18 @@ struct Entry {
 class Crossings {
  public:
   Crossings(const Surface& surface, const exec::Context& context)
-      : surface_(surface), poll_(context) {
+      : surface_(surface), poll_(context), parts_(surface.vertices.size()) {
     boxes_.reserve(surface.triangles.size());
-    for (const Triangle& t : surface.triangles) boxes_.push_back(BoxOf(t));
+    for (const Triangle& t : surface.triangles) {
+      boxes_.push_back(BoxOf(t));
+      parts_.Join(t[0], t[1]);
+      parts_.Join(t[0], t[2]);
+    }
   }
 
-  uint64_t Count() {
+  CrossingCount Count() {
     const std::vector<Entry> entries = Entries();
-    uint64_t crossings = 0;
+    CrossingCount crossings;
     for (size_t n = 0; n < entries.size(); ++n) {
       const auto [cell, triangle] = entries[n];
       for (size_t m = n + 1; m < entries.size() && entries[m].cell == cell; ++m) {
@@ -62,7 +67,8 @@ class Crossings {
         const uint32_t other = entries[m].triangle;
         const bool counts = boxes_[triangle].Meets(boxes_[other]) &&
                             FirstCellOfBoth(triangle, other) == cell && Cross(triangle, other);
-        crossings += counts ? 1 : 0;
+        if (counts)
+          ++(PartOf(triangle) == PartOf(other) ? crossings.within_parts : crossings.between_parts);
       }
     }
     return crossings;
@@ -132,6 +138,8 @@ class Crossings {
     return place(2) << 42 | place(1) << 21 | place(0);
   }
 
+  uint32_t PartOf(uint32_t triangle) { return parts_.Find(surface_.triangles[triangle][0]); }
+
   bool Cross(uint32_t a, uint32_t b) const {
     return AnyEdgePierces(surface_.triangles[a], surface_.triangles[b]) ||
            AnyEdgePierces(surface_.triangles[b], surface_.triangles[a]);
@@ -160,14 +168,15 @@ class Crossings {
 
   const Surface& surface_;
   StopPoll poll_;
+  DisjointSets parts_;  // vertices, by the triangles
   std::vector<Box> boxes_;
   double cell_ = 1;
 };
 
 }  // namespace
 
-absl::StatusOr<uint64_t> CountCrossings(const Surface& surface, const exec::Context& context) {
-  const uint64_t count = Crossings(surface, context).Count();
+absl::StatusOr<CrossingCount> CountCrossings(const Surface& surface, const exec::Context& context) {
+  const CrossingCount count = Crossings(surface, context).Count();
   if (absl::Status stop = context.StopStatus(); !stop.ok()) return stop;
   return count;
 }

@@ -9,11 +9,19 @@
 
 namespace bccskel {
 
-// The number of pairs of triangles that cross: an edge of one pierces the interior of the other.
+// Pairs of triangles that cross.
+struct CrossingCount {
+  uint64_t within_parts = 0;   // of one connected surface, which crosses itself
+  uint64_t between_parts = 0;  // of two
+
+  uint64_t total() const { return within_parts + between_parts; }
+};
+
+// Counts the pairs of triangles that cross: an edge of one pierces the interior of the other.
 // Triangles that only touch, overlap in a plane or share an edge do not cross.
 // Cost:   follows the triangles and the pairs with overlapping boxes.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
-absl::StatusOr<uint64_t> CountCrossings(const Surface& surface, const exec::Context& context);
+absl::StatusOr<CrossingCount> CountCrossings(const Surface& surface, const exec::Context& context);
 
 }  // namespace bccskel
 

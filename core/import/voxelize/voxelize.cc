@@ -180,19 +180,26 @@ class Voxelizer {
     if (!mesh || *mesh == found) return absl::OkStatus();
     BCCSKEL_RETURN_IF_ERROR(Repair(*mesh, result));
     if (*mesh == AsSolid(*result.topology)) return absl::OkStatus();
-    misses_topology_ = true;
-    BCCSKEL_ASSIGN_OR_RETURN(const uint64_t crossings, CountCrossings(surface_, context_));
-    warnings_.push_back(
-        "the volume has " + InWords(AsSolid(*result.topology)) + ", but the mesh has " +
-        InWords(*mesh) + ": " +
-        (crossings == 0 ? "walls or gaps are thinner than a cell, which more points or a smaller "
-                          "spacing resolve, or parts touch" +
-                              WallsInWords(result.volume)
-                        : Counted(static_cast<int64_t>(crossings), "pair of triangles crosses",
-                                  "pairs of triangles cross") +
-                              "; repair the mesh, or try --denoise 1, which removes thin "
-                              "spots and small holes"));
+    BCCSKEL_ASSIGN_OR_RETURN(const CrossingCount crossings, CountCrossings(surface_, context_));
+    const bool is_union = crossings.within_parts == 0 && crossings.between_parts > 0 &&
+                          result.fill == FillRule::kWinding;
+    misses_topology_ = !is_union;
+    warnings_.push_back("the volume has " + InWords(AsSolid(*result.topology)) +
+                        ", but the mesh has " + InWords(*mesh) + ": " +
+                        (is_union ? "its parts overlap, and the volume is their union"
+                                  : CauseInWords(crossings.total(), result.volume)));
     return absl::OkStatus();
+  }
+
+  std::string CauseInWords(uint64_t crossings, const Volume& volume) const {
+    if (crossings == 0) {
+      return "walls or gaps are thinner than a cell, which more points or a smaller spacing "
+             "resolve, or parts touch" +
+             WallsInWords(volume);
+    }
+    return Counted(static_cast<int64_t>(crossings), "pair of triangles crosses",
+                   "pairs of triangles cross") +
+           "; repair the mesh, or try --denoise 1, which removes thin spots and small holes";
   }
 
   // Where it is near a cell or below, what would resolve the mean thickness of walls, which is

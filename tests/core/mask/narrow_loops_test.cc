@@ -1,4 +1,6 @@
 // Loops of masks that are as narrow as noise makes them.
+#include "core/skeleton/narrow_loops.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -61,11 +63,29 @@ TEST(NarrowLoops, AreCountedByTheWidthOfTheirTunnels) {
   }
 }
 
+// Those inside the grid have four sides.
+TEST(NarrowLoops, AreCountedInAGridOfHoles) {
+  test::ReferenceMask mask{50, 50, 11, std::vector<uint8_t>(50 * 50 * 11)};
+  const auto is_hole = [](int32_t at) { return at % 9 == 0; };
+  for (int32_t z = 2; z < 9; ++z) {
+    for (int32_t y = 2; y < 44; ++y) {
+      for (int32_t x = 2; x < 44; ++x) {
+        mask.voxels[mask.Index(x, y, z)] = is_hole(x) && is_hole(y) ? 0 : 1;
+      }
+    }
+  }
+  const SkeletonGraph graph =
+      Skeletonize(Converted(mask, {}, {}).volume, {.source = ObjectSource::kVoxels}, {})->graph;
+  ASSERT_EQ(TotalOf(ComponentsOf(graph)).loops, 16u);
+  EXPECT_EQ(CountNarrowLoops(graph, 3), 16u);
+}
+
 TEST(NarrowLoops, AreNotedWithTheOptionThatClosesThem) {
   const SkeletonizeResult result = BarWithHoles({1, 1, 5}, 8);
-  EXPECT_THAT(NotesOn(result), ElementsAre("2 loops are narrower than 2 voxels, as noise produces "
-                                           "them; --cut-loops 16 closes such tunnels before "
-                                           "thinning"));
+  EXPECT_THAT(NotesOn(result),
+              ElementsAre("at least 2 loops are narrower than 2 voxels, as noise produces "
+                          "them; --cut-loops 16 closes such tunnels before "
+                          "thinning"));
   const SkeletonizeResult closed = BarWithHoles({1, 1, 5}, 8, {.tunnel_width = 16});
   EXPECT_EQ(closed.certificate.skeleton.loops, 1);
   EXPECT_THAT(NotesOn(closed), ElementsAre(HasSubstr("loops 3 -> 1")));

@@ -21,7 +21,10 @@ using testing::Merged;
 using testing::Sphere;
 using Vertex = TriangleMesh::Vertex;
 
-uint64_t CrossingsOf(const TriangleMesh& mesh) { return *CountCrossings(PrepareSurface(mesh), {}); }
+CrossingCount CountIn(const TriangleMesh& mesh) {
+  return *CountCrossings(PrepareSurface(mesh), {});
+}
+uint64_t CrossingsOf(const TriangleMesh& mesh) { return CountIn(mesh).total(); }
 
 TEST(Crossings, AreNoneWherePartsLieApartOrTouch) {
   EXPECT_EQ(CrossingsOf(Sphere({0, 0, 0}, 1)), 0u);
@@ -37,6 +40,18 @@ TEST(Crossings, OfANeedleThroughASheetAreThoseOfItsSides) {
   mesh.vertices.push_back({2.1, 2, 6});
   mesh.triangles.push_back({3, 4, 6});  // shares an edge with the other one
   EXPECT_EQ(CrossingsOf(mesh), 2u);
+}
+
+TEST(Crossings, OfASurfaceWithItselfAreToldFromThoseOfParts) {
+  TriangleMesh mesh;
+  mesh.vertices = {{0, 0, 0}, {9, 0, 0}, {0, 9, 0}, {1, 1, -4}, {2, 1.1, 4}, {1, 2.2, 5}};
+  mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
+  EXPECT_EQ(CountIn(mesh).within_parts, 0u);
+  EXPECT_EQ(CountIn(mesh).between_parts, 1u);
+  mesh.vertices.push_back({-9, 9, 9});
+  mesh.triangles.push_back({2, 5, 6});  // connects them
+  EXPECT_EQ(CountIn(mesh).within_parts, 1u);
+  EXPECT_EQ(CountIn(mesh).between_parts, 0u);
 }
 
 // Whether the segment meets the inside of the triangle, by solving for the place where it does.

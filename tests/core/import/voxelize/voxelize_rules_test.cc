@@ -121,12 +121,23 @@ TEST(FillRule, GenusOfTheMeshIsThatOfTheGridAndDifferencesAreSaid) {
                                    "thinner than a cell, which more points or a smaller spacing")));
 }
 
-TEST(FillRule, PartsThatCrossAreCountedAndTheWarningSaysWhatHelps) {
+TEST(FillRule, PartsThatOverlapAreUnited) {
   const TriangleMesh crossed = Merged(Sphere({0, 0, 0}, 1), Sphere({1, 0.1, 0.2}, 1));
   EXPECT_THAT(WithSpacing(crossed, 0.2).warnings,
-              ElementsAre(::testing::ContainsRegex("mesh has 2 components.* [0-9]+ pairs of "
-                                                   "triangles cross; repair the mesh, or try "
-                                                   "--denoise 1")));
+              ElementsAre("the volume has 1 component, 0 loops, 0 cavities, but the mesh has 2 "
+                          "components, 0 loops, 0 cavities: its parts overlap, and the volume is "
+                          "their union"));
+}
+
+// The spheres share a vertex, so they are one surface, which crosses itself.
+TEST(FillRule, ASurfaceThatCrossesItselfGetsAWarningThatSaysWhatHelps) {
+  const TriangleMesh left = Sphere({0, 0, 0}, 1);
+  TriangleMesh right = Sphere({1, 0.1, 0.2}, 1);
+  right.vertices[0] = left.vertices[0];
+  const TriangleMesh crossed = Merged(left, right);
+  EXPECT_THAT(WithSpacing(crossed, 0.2).warnings,
+              ElementsAre(::testing::ContainsRegex("[0-9]+ pairs of triangles cross; repair the "
+                                                   "mesh, or try --denoise 1")));
 }
 
 TEST(FillRule, TopologyIsNotCountedWhenNotAskedFor) {
