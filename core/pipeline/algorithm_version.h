@@ -7,10 +7,10 @@ namespace bccskel {
 
 // Changes whenever the same volume and options may give a different skeleton. Part of the key of
 // stored results.
-inline constexpr char kAlgorithmVersion[] = "27";
+inline constexpr char kAlgorithmVersion[] = "28";
 
 // The same for masks; it also changes with their conversion.
-inline constexpr char kMaskAlgorithmVersion[] = "27.mask-9";
+inline constexpr char kMaskAlgorithmVersion[] = "28.mask-10";
 
 constexpr const char* AlgorithmVersionOf(ObjectSource source) {
   return source == ObjectSource::kPoints ? kAlgorithmVersion : kMaskAlgorithmVersion;

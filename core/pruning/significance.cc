@@ -15,6 +15,8 @@ namespace {
 constexpr double kWallSteepness = 0.4;  // weight of the inscribed circle's fall in a wall
 constexpr double kWidthShare = 2.2;     // weight of half-width - radius
 constexpr double kNoiseMargin = 2;      // units more, since squares are subtracted
+constexpr double kLeastStretch = 0.4;   // share of the stretch of the noise that the margin gets
+constexpr double kRoughMargin = 10;     // the same, for each unit of roughness
 constexpr double kSureRatio = 2;        // above this, what lies beyond the end does not matter
 constexpr double kLeastRatio = 0.2;     // below this, the branch is a bump whatever its width
 constexpr double kLeastFine = 0.35;     // below this, a rough value suffices
@@ -214,7 +216,10 @@ void Significance::Consider(const ThinSet& set, const BranchPath& path, const Ru
 // Shape and noise are independent, so their squares add. The margin is for the thinnest limbs, for
 // which this is less than the noise itself.
 double Significance::BeyondNoise(double elongation, double radius, const Coordinates& way) const {
-  const double noise = noise_.Stretch(way) * (noise_.At(radius) + kNoiseMargin);
+  const double stretch = noise_.Stretch(way);
+  const double share = std::clamp(kRoughMargin * noise_.roughness, kLeastStretch, 1.0);
+  const double margin = kNoiseMargin * (1 + share * (stretch - 1));
+  const double noise = stretch * noise_.At(radius) + margin;
   if (elongation <= noise) return elongation - noise;
   return std::sqrt(elongation * elongation - noise * noise);
 }
