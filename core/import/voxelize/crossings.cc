@@ -67,8 +67,8 @@ class Crossings {
         const uint32_t other = entries[m].triangle;
         const bool counts = boxes_[triangle].Meets(boxes_[other]) &&
                             FirstCellOfBoth(triangle, other) == cell && Cross(triangle, other);
-        if (counts)
-          ++(PartOf(triangle) == PartOf(other) ? crossings.within_parts : crossings.between_parts);
+        if (!counts) continue;
+        ++(PartOf(triangle) == PartOf(other) ? crossings.within_parts : crossings.between_parts);
       }
     }
     return crossings;
