@@ -1,6 +1,7 @@
 #include "core/skeleton/narrow_loops.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <limits>
@@ -20,6 +21,7 @@ constexpr size_t kMostLoops = 10'000;
 constexpr size_t kMostNodes = 32;  // visited for an edge
 constexpr size_t kMostEdges = 16;  // followed from a node
 constexpr size_t kBalls = 64;      // of a loop that count
+constexpr double kFits = 0.85;     // of a diameter: balls of thin limbs stick out of them a little
 constexpr uint32_t kNoEdge = std::numeric_limits<uint32_t>::max();
 
 struct Ball {
@@ -27,15 +29,26 @@ struct Ball {
   double radius = 0;
 };
 
+double ClearanceOf(const WorldPoint& at, std::span<const Ball> balls) {
+  double clearance = std::numeric_limits<double>::infinity();
+  for (const Ball& ball : balls) {
+    clearance = std::min(clearance, DistanceBetween(at, ball.center) - ball.radius);
+  }
+  return clearance;
+}
+
 // Whether a ball of this diameter fits between these, which lie around a loop.
 bool FitsBetween(std::span<const Ball> loop, double diameter) {
   for (size_t n = 0; n < loop.size() / 2; ++n) {
-    const WorldPoint &a = loop[n].center, &b = loop[n + loop.size() / 2].center;
-    const WorldPoint middle = {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2};
-    const auto is_clear = [&](const Ball& ball) {
-      return DistanceBetween(middle, ball.center) - ball.radius >= diameter / 2;
-    };
-    if (std::ranges::all_of(loop, is_clear)) return true;
+    const Ball &a = loop[n], &b = loop[n + loop.size() / 2];
+    const double apart = DistanceBetween(a.center, b.center);
+    if (apart == 0) continue;
+    const double share = std::clamp((1 + (a.radius - b.radius) / apart) / 2, 0.0, 1.0);
+    WorldPoint middle;  // of the gap
+    for (size_t axis = 0; axis < 3; ++axis) {
+      middle[axis] = std::lerp(a.center[axis], b.center[axis], share);
+    }
+    if (ClearanceOf(middle, loop) >= kFits * diameter / 2) return true;
   }
   return false;
 }
@@ -131,7 +144,14 @@ class LoopCounter {
       at = forward ? edge.target : edge.source;
     }
     const size_t count = std::min(all.size(), kBalls);
-    for (size_t n = 0; n < count; ++n) some.push_back(all[n * all.size() / count]);
+    for (size_t n = 0; n < count; ++n) {
+      const size_t at = n * all.size() / count;
+      some.push_back(all[at]);
+      // Where a thin limb's curve alternates between two sides, so do its radii.
+      for (const size_t beside : {at + 1, at + all.size() - 1}) {
+        some.back().radius = std::min(some.back().radius, all[beside % all.size()].radius);
+      }
+    }
     return some;
   }
 

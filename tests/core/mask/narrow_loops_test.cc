@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <random>
+#include <tuple>
 #include <vector>
 
 #include "core/pipeline/notes.h"
@@ -60,6 +62,42 @@ TEST(NarrowLoops, AreCountedByTheWidthOfTheirTunnels) {
     ASSERT_EQ(TotalOf(ComponentsOf(graph)).loops, 3u);
     EXPECT_EQ(CountNarrowLoops(graph, 2 * voxel), 2u);
     EXPECT_EQ(CountNarrowLoops(graph, 12 * voxel), 3u);
+  }
+}
+
+// A frame around a hole of so many voxels, as thick as told on two sides and three times that on
+// the others.
+SkeletonGraph Frame(std::array<int32_t, 2> hole, int32_t limb, const std::array<double, 3>& voxel) {
+  const auto [width, height] = hole;
+  test::ReferenceMask mask{width + 4 * limb + 4, height + 4 * limb + 4, 3 * limb + 4, {}};
+  mask.voxels.resize(static_cast<size_t>(mask.nx) * static_cast<size_t>(mask.ny) *
+                     static_cast<size_t>(mask.nz));
+  for (int32_t z = 2; z < 2 + 3 * limb; ++z) {
+    for (int32_t y = 2; y < 2 + height + 4 * limb; ++y) {
+      for (int32_t x = 2; x < 2 + width + 4 * limb; ++x) {
+        const int32_t right = x - 2 - limb, up = y - 2 - limb;
+        const bool is_hole = 0 <= right && right < width && 0 <= up && up < height;
+        mask.voxels[mask.Index(x, y, z)] = is_hole ? 0 : 1;
+      }
+    }
+  }
+  Placement placement;
+  placement.spacing = voxel;
+  return Skeletonize(Converted(mask, {}, placement).volume, {.source = ObjectSource::kVoxels}, {})
+      ->graph;
+}
+
+TEST(NarrowLoops, AreMeasuredBetweenLimbsOfAnyThickness) {
+  for (const int32_t limb : {1, 2, 3}) {
+    for (const auto& [voxel, narrow, wide] :
+         {std::tuple{std::array{1.0, 1.0, 1.0}, std::array{1, 1}, std::array{4, 4}},
+          {std::array{2.0, 3.0, 4.0}, std::array{1, 2}, std::array{3, 4}},
+          {std::array{1.0, 1.0, 3.0}, std::array{1, 3}, std::array{5, 5}}}) {
+      const double width = 2.5 * *std::ranges::min_element(voxel);
+      EXPECT_EQ(CountNarrowLoops(Frame(narrow, limb, voxel), width), 1u)
+          << limb << ", " << voxel[2];
+      EXPECT_EQ(CountNarrowLoops(Frame(wide, limb, voxel), width), 0u) << limb << ", " << voxel[2];
+    }
   }
 }
 
