@@ -235,6 +235,19 @@ class ViewpointTest(ToolsTestCase):
             camera.matrixWorld.elements[n]) + 0)""")
         self.assertEqual(axes, [1, 0, 0, 0, -1, 0, 0, 0, -1])
 
+    def test_a_plate_does_not_show_its_edge(self):
+        z, y, x = numpy.indices((60, 60, 60)) - 30
+        for slope in (-1, 1):
+            with self.subTest(slope):
+                plate = (abs(z - slope * x) < 4) & (abs(x) < 22) & (abs(y) < 22)
+                numpy.save(self.path("mask.npy"), plate)
+                done = harness.bccskel("skeletonize", self.path("mask.npy"), "--local", "-o",
+                                       self.path("s.html"))
+                self.assertEqual(done.returncode, 0, done.stderr)  # which may warn of the plate
+                self.browser.open(self.path("s.html"))
+                seen = self.seen()
+                self.assertGreater(abs(seen[2] - slope * seen[0]), 1.1)
+
     def test_buttons_and_keys_look_along_the_axes(self):
         page = self.open_sample(view_samples.forest(30))
         for axis, name in enumerate("xyz"):

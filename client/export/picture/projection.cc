@@ -33,12 +33,58 @@ Range RangeAlong(const WorldPoint& v, const Spheres& shown) {
   return range;
 }
 
+// Across z, x and y.
+constexpr std::array<View, 3> kSides = {{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                                         {{0, 0, -1}, {0, 1, 0}, {1, 0, 0}},
+                                         {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}}}};
+
 View BroadsideOf(const WorldBox& box) {
   std::array<double, 3> size;
   for (size_t axis = 0; axis < 3; ++axis) size[axis] = box.high[axis] - box.low[axis];
-  if (size[2] <= size[0] && size[2] <= size[1]) return {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  if (size[0] <= size[1]) return {{0, 0, -1}, {0, 1, 0}, {1, 0, 0}};
-  return {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}};
+  if (size[2] <= size[0] && size[2] <= size[1]) return kSides[0];
+  return kSides[size[0] <= size[1] ? 1 : 2];
+}
+
+// The square of the area that the points fill in a view, but for a factor that depends on how they
+// are distributed.
+double SquaredAreaIn(const View& view, std::span<const WorldPoint> points) {
+  const size_t step = points.size() / 20'000 + 1;  // some thousands suffice
+  double count = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
+  for (size_t n = 0; n < points.size(); n += step) {
+    const WorldPoint p = {points[n][0] - points[0][0], points[n][1] - points[0][1],
+                          points[n][2] - points[0][2]};
+    const double right = Dot(view.right, p), up = Dot(view.up, p);
+    count += 1;
+    x += right;
+    y += up;
+    xx += right * right;
+    xy += right * up;
+    yy += up * up;
+  }
+  const auto variance = [&](double square, double a, double b) {
+    return square / count - a / count * b / count;
+  };
+  return variance(xx, x, x) * variance(yy, y, y) - variance(xy, x, y) * variance(xy, x, y);
+}
+
+// A flat object that lies obliquely in its box might show its edge: then it is seen from the side
+// where it covers most.
+Front ThreeQuarterFrontOf(const WorldBox& box, std::span<const WorldPoint> points) {
+  constexpr double kMuchMore = 2;
+  Front best = {BroadsideOf(box), kTurn, kClimb};
+  const auto area = [&](const View& side, double turn) {
+    return SquaredAreaIn(ViewFrom(side, turn, kClimb), points);
+  };
+  double most = kMuchMore * area(best.view, kTurn);
+  for (const View& side : kSides) {
+    for (const double turn : {kTurn, -kTurn}) {
+      const double here = area(side, turn);
+      if (!(here > most)) continue;  // no points
+      most = here;
+      best = {side, turn, kClimb};
+    }
+  }
+  return best;
 }
 
 }  // namespace
@@ -70,7 +116,8 @@ WorldBox BoxOf(std::span<const WorldPoint> points) {
   return box;
 }
 
-Front FrontOf(const WorldBox& box, const std::optional<SliceFacts>& slice) {
+Front FrontOf(const WorldBox& box, std::span<const WorldPoint> points,
+              const std::optional<SliceFacts>& slice) {
   // Points of one slice lie on both of its faces; the box is half a step larger, and another half
   // is left for rounding. Boxes that look as flat count, too.
   constexpr double kMoreSteps = 1.5, kFlat = 0.02;
@@ -79,7 +126,7 @@ Front FrontOf(const WorldBox& box, const std::optional<SliceFacts>& slice) {
   const bool flat =
       slice.has_value() && z <= std::min(x, y) &&
       z <= std::max((slice->slabs + kMoreSteps) * slice->step, kFlat * std::min(x, y));
-  if (!flat) return {BroadsideOf(box), kTurn, kClimb};
+  if (!flat) return ThreeQuarterFrontOf(box, points);
   const bool anterior = slice->axes.size() == 3 && slice->axes[1] == 'A';
   if (anterior) return {BroadsideOf(box), 0, 0};
   return {{{1, 0, 0}, {0, -1, 0}, {0, 0, -1}}, 0, 0};

@@ -79,10 +79,12 @@ struct Front {
 };
 
 // A three-quarter view of the broadest side of the box; up is +y, or +z when y is the thinnest
-// axis. An object of an image (`slice` is known) that is one slice thick along z is seen as
-// programs show images: straight, x to the right, and y down unless it points to the anterior.
+// axis. A flat object that would show its edge is seen from where it covers most. An object of an
+// image (`slice` is known) that is one slice thick along z is seen as programs show images:
+// straight, x to the right, and y down unless it points to the anterior.
 // Needs: a box no more than half a step larger than the points.
-Front FrontOf(const WorldBox& box, const std::optional<SliceFacts>& slice);
+Front FrontOf(const WorldBox& box, std::span<const WorldPoint> points,
+              const std::optional<SliceFacts>& slice);
 
 // The view after moving `turn` degrees to the right around the object and `climb` degrees up.
 View ViewFrom(const View& front, double turn, double climb);

@@ -244,7 +244,8 @@ std::optional<SliceFacts> SliceFactsOf(const Subject& subject) {
 
 absl::StatusOr<std::string> SvgText(const Subject& subject) {
   const Scene scene = SceneOf(subject);
-  const std::array<View, 3> views = ViewsOf(FrontOf(scene.box, SliceFactsOf(subject)));
+  const std::array<View, 3> views =
+      ViewsOf(FrontOf(scene.box, scene.surface, SliceFactsOf(subject)));
   Text svg;
   AddHead(svg, subject);
   for (size_t n = 0; n < kPanels.size(); ++n) {

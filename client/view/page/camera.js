@@ -37,29 +37,53 @@ function isSlice({ x, y, z }) {
   const slice = (Number((slabs ?? "1").split(",").pop()) + 1.5) * result.placement.spacing[2] / edge;
   return z <= Math.max(slice, 0.02 * Math.min(x, y));
 }
-// A three-quarter view on the broadest side, up is +y, or +z when y is the thinnest axis; or a
-// straight view on a slice.
-function startView(box) {
-  const size = box.getSize(new THREE.Vector3());
-  let toward = new THREE.Vector3(0, 0, 1), up = new THREE.Vector3(0, 1, 0);
-  if (size.z > size.x || size.z > size.y) {
-    if (size.x <= size.y) {
-      toward.set(1, 0, 0);
-    } else {
-      toward.set(0, -1, 0);
-      up.set(0, 0, 1);
-    }
+// The square of the area that the points fill from there, but for a factor.
+function squaredAreaFrom(turn, places) {
+  const toCamera = cameraTurn(turn, first.climb).inverse(), p = new THREE.Vector3();
+  const middle = wholeBox.getCenter(new THREE.Vector3());
+  const step = 3 * Math.ceil(places.length / 60000);  // some thousands suffice
+  let [count, x, y, xx, xy, yy] = [0, 0, 0, 0, 0, 0];
+  for (let n = 0; n < places.length; n += step) {
+    p.fromArray(places, n).sub(middle).applyQuaternion(toCamera);
+    count += 1;
+    x += p.x;
+    y += p.y;
+    xx += p.x ** 2;
+    xy += p.x * p.y;
+    yy += p.y ** 2;
   }
+  const variance = (square, a, b) => square / count - a * b / count ** 2;
+  return variance(xx, x, x) * variance(yy, y, y) - variance(xy, x, y) ** 2;
+}
+// A three-quarter view on the broadest side, up is +y, or +z when y is the thinnest axis; or a
+// straight view on a slice. `places`: coordinates of the surface.
+function startView(box, places) {
+  wholeBox.copy(box);
+  const size = box.getSize(new THREE.Vector3());
+  const setSide = (toward, up) => upright.setFromRotationMatrix(new THREE.Matrix4().makeBasis(
+    new THREE.Vector3().crossVectors(up, toward), up, toward));
+  const vector = (...numbers) => new THREE.Vector3(...numbers);
+  const sides = [[vector(0, 0, 1), vector(0, 1, 0)], [vector(1, 0, 0), vector(0, 1, 0)],
+    [vector(0, -1, 0), vector(0, 0, 1)]];  // across z, x and y
+  const broadest = size.z <= size.x && size.z <= size.y ? 0 : size.x <= size.y ? 1 : 2;
   if (isSlice(size)) {
     Object.assign(first, { turn: 0, climb: 0 });
-    if (result.world?.[1] !== "A") {
-      toward.set(0, 0, -1);
-      up.set(0, -1, 0);
+    setSide(...result.world?.[1] === "A" ? sides[0] : [vector(0, 0, -1), vector(0, -1, 0)]);
+  } else {
+    // A flat object that lies obliquely in its box might show its edge.
+    const area = ({ side, turn }) => {
+      setSide(...sides[side]);
+      return squaredAreaFrom(turn, places);
+    };
+    let best = { side: broadest, turn: first.turn }, most = 2 * area(best);
+    for (const other of [0, 1, 2].flatMap((side) => [1, -1].map(
+      (sign) => ({ side, turn: sign * first.turn })))) {
+      const here = area(other);
+      if (here > most) [best, most] = [other, here];
     }
+    setSide(...sides[best.side]);
+    first.turn = best.turn;
   }
-  upright.setFromRotationMatrix(new THREE.Matrix4().makeBasis(
-    new THREE.Vector3().crossVectors(up, toward), up, toward));
-  wholeBox.copy(box);
   Object.assign(view, wholeView());
 }
 // From the initial side, as near as possible with the whole object in view.

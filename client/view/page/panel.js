@@ -247,7 +247,7 @@ async function start() {
   if (data.layers.length) layers = [await surfaceGeometry(data.layers[0])];
   const box = boxOfAll();
   prepareCut(box);
-  startView(box);
+  startView(box, layers.length ? layers[0].attributes.position.array : curvePoints);
   dress(systemTheme());
   prune();
   listen();

@@ -55,7 +55,7 @@ exporting::Projection ProjectionOf(const ResultDocument& result, const DisplaySu
                                         : std::span<const WorldPoint>(surface.vertices),
                                     1e-9};
   const exporting::Front front =
-      exporting::FrontOf(exporting::BoxOf(shown.centers), SliceFactsOf(result));
+      exporting::FrontOf(exporting::BoxOf(shown.centers), shown.centers, SliceFactsOf(result));
   const double words = (kWordsAbove + kWordsBelow) * FontSize(options);
   return exporting::Projection(
       exporting::ViewFrom(front.view, options.turn.value_or(front.turn),
