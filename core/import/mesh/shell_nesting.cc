@@ -1,7 +1,9 @@
 #include "core/import/mesh/shell_nesting.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <span>
 #include <vector>
@@ -28,12 +30,29 @@ GridPoint Snap(const TriangleMesh::Vertex& unit) {
           std::llround(unit[2] * kScale)};
 }
 
-// One query per component, sorted by height.
+// The lowest and the highest vertex of each component along each axis, sorted by height.
 std::vector<Query> PlaceQueries(const Surface& surface) {
-  std::vector<Query> queries(surface.report.components.size());
-  for (size_t t = surface.triangles.size(); t-- > 0;) {
-    const uint32_t component = surface.component_of[t];
-    queries[component] = {Snap(surface.vertices[surface.triangles[t][0]]), component};
+  constexpr uint32_t kNone = UINT32_MAX;
+  std::vector<std::array<uint32_t, 6>> extremes(surface.report.components.size());
+  for (auto& of_component : extremes) of_component.fill(kNone);
+  for (size_t t = 0; t < surface.triangles.size(); ++t) {
+    for (const uint32_t v : surface.triangles[t]) {
+      for (size_t n = 0; n < 6; ++n) {
+        uint32_t& extreme = extremes[surface.component_of[t]][n];
+        const double sign = n % 2 == 0 ? 1 : -1;
+        const auto place = [&](uint32_t vertex) { return sign * surface.vertices[vertex][n / 2]; };
+        if (extreme == kNone || place(v) < place(extreme)) extreme = v;
+      }
+    }
+  }
+  std::vector<Query> queries;
+  for (uint32_t component = 0; component < extremes.size(); ++component) {
+    std::array<uint32_t, 6>& vertices = extremes[component];
+    std::ranges::sort(vertices);
+    const auto repeated = std::ranges::unique(vertices);
+    for (auto v = vertices.begin(); v != repeated.begin(); ++v) {
+      queries.push_back({Snap(surface.vertices[*v]), component});
+    }
   }
   std::ranges::stable_sort(queries, {}, [](const Query& q) { return q.point.z; });
   return queries;
@@ -65,14 +84,15 @@ uint64_t CountComparisons(const Surface& surface, std::span<const Query> queries
   return comparisons;
 }
 
+// For each query.
 std::vector<CrossingCounts> CastRays(const Surface& surface, std::span<const Query> queries) {
-  std::vector<CrossingCounts> counts(surface.report.components.size());
+  std::vector<CrossingCounts> counts(queries.size());
   for (size_t t = 0; t < surface.triangles.size(); ++t) {
     const RayTriangle triangle = SnapTriangle(surface, t);
     if (triangle.parallel()) continue;
     for (const Query& query : QueriesInRows(queries, triangle.Rows())) {
       if (query.component != surface.component_of[t] && Crosses(triangle, query.point)) {
-        ++counts[query.component][surface.component_of[t]];
+        ++counts[static_cast<size_t>(&query - queries.data())][surface.component_of[t]];
       }
     }
   }
@@ -89,12 +109,22 @@ bool BoxEncloses(const SurfaceComponent& outer, const SurfaceComponent& inner) {
 
 // The components that enclose each component.
 std::vector<std::vector<uint32_t>> FindEnclosing(const MeshReport& report,
+                                                 std::span<const Query> queries,
                                                  const std::vector<CrossingCounts>& counts) {
-  std::vector<std::vector<uint32_t>> enclosing(counts.size());
-  for (size_t inner = 0; inner < counts.size(); ++inner) {
-    for (const auto& [outer, crossings] : counts[inner]) {
-      const bool inside = crossings % 2 == 1;
-      if (inside && BoxEncloses(report.components[outer], report.components[inner])) {
+  const size_t count = report.components.size();
+  std::vector<uint32_t> asked(count);
+  std::vector<std::map<uint32_t, uint32_t>> insides(count);  // of how many queries
+  for (size_t n = 0; n < queries.size(); ++n) {
+    ++asked[queries[n].component];
+    for (const auto& [outer, crossings] : counts[n]) {
+      if (crossings % 2 == 1) ++insides[queries[n].component][outer];
+    }
+  }
+  std::vector<std::vector<uint32_t>> enclosing(count);
+  for (size_t inner = 0; inner < count; ++inner) {
+    for (const auto& [outer, inside] : insides[inner]) {
+      if (inside < asked[inner]) continue;
+      if (BoxEncloses(report.components[outer], report.components[inner])) {
         enclosing[inner].push_back(outer);
       }
     }
@@ -112,7 +142,7 @@ void FindNesting(Surface& surface) {
   const std::vector<Query> queries = PlaceQueries(surface);
   if (CountComparisons(surface, queries) > kMaxComparisons) return;
   std::vector<SurfaceComponent>& components = surface.report.components;
-  const auto enclosing = FindEnclosing(surface.report, CastRays(surface, queries));
+  const auto enclosing = FindEnclosing(surface.report, queries, CastRays(surface, queries));
   for (size_t n = 0; n < components.size(); ++n) {
     components[n].depth = static_cast<int32_t>(enclosing[n].size());
   }

@@ -7,9 +7,10 @@ namespace bccskel {
 
 // Finds out which closed components enclose which and fills depth, root, orientation and
 // winding_outside of the report's components. A component encloses another when its bounding box
-// does and an exact ray from a vertex of the other one crosses it an odd number of times.
+// does and exact rays from the other's extreme vertices along x, y and z cross it an odd number of
+// times each. (With one ray, a rung between two posts might seem to lie inside a post.)
 // Needs:  the rest of `surface` is filled in and its closure is not kOpen.
-// Cost:   one ray per component through the triangles at its height; gives up (nesting_known
+// Cost:   up to six rays per component through the triangles at its height; gives up (nesting_known
 //         stays false) where that is more than some 10^9 comparisons.
 void FindNesting(Surface& surface);
 

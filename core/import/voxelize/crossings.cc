@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/exec/disjoint_sets.h"
 #include "core/exec/stop_poll.h"
 #include "core/lattice/lattice_point.h"
 
@@ -48,13 +47,9 @@ struct Entry {
 class Crossings {
  public:
   Crossings(const Surface& surface, const exec::Context& context)
-      : surface_(surface), poll_(context), parts_(surface.vertices.size()) {
+      : surface_(surface), poll_(context) {
     boxes_.reserve(surface.triangles.size());
-    for (const Triangle& t : surface.triangles) {
-      boxes_.push_back(BoxOf(t));
-      parts_.Join(t[0], t[1]);
-      parts_.Join(t[0], t[2]);
-    }
+    for (const Triangle& t : surface.triangles) boxes_.push_back(BoxOf(t));
   }
 
   CrossingCount Count() {
@@ -68,7 +63,8 @@ class Crossings {
         const bool counts = boxes_[triangle].Meets(boxes_[other]) &&
                             FirstCellOfBoth(triangle, other) == cell && Cross(triangle, other);
         if (!counts) continue;
-        ++(PartOf(triangle) == PartOf(other) ? crossings.within_parts : crossings.between_parts);
+        const std::vector<uint32_t>& parts = surface_.component_of;
+        ++(parts[triangle] == parts[other] ? crossings.within_parts : crossings.between_parts);
       }
     }
     return crossings;
@@ -138,8 +134,6 @@ class Crossings {
     return place(2) << 42 | place(1) << 21 | place(0);
   }
 
-  uint32_t PartOf(uint32_t triangle) { return parts_.Find(surface_.triangles[triangle][0]); }
-
   bool Cross(uint32_t a, uint32_t b) const {
     return AnyEdgePierces(surface_.triangles[a], surface_.triangles[b]) ||
            AnyEdgePierces(surface_.triangles[b], surface_.triangles[a]);
@@ -168,7 +162,6 @@ class Crossings {
 
   const Surface& surface_;
   StopPoll poll_;
-  DisjointSets parts_;  // vertices, by the triangles
   std::vector<Box> boxes_;
   double cell_ = 1;
 };

@@ -11,8 +11,8 @@ namespace bccskel {
 
 // Pairs of triangles that cross.
 struct CrossingCount {
-  uint64_t within_parts = 0;   // of one connected surface, which crosses itself
-  uint64_t between_parts = 0;  // of two
+  uint64_t within_parts = 0;   // of one component, which crosses itself
+  uint64_t between_parts = 0;  // of two components
 
   uint64_t total() const { return within_parts + between_parts; }
 };

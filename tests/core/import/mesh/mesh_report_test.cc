@@ -132,6 +132,20 @@ TEST(MeshReport, FindsCavitiesAndWhatFloatsInThem) {
   EXPECT_EQ(nested.SolidByParity(), (SolidTopology{2, 0, 1}));
 }
 
+// All corners of the rung lie in one post or the other, and the box around a slanting post is wide.
+TEST(MeshReport, FindsNoShellInsideAnotherWhereTheyOnlyOverlap) {
+  TriangleMesh posts =
+      Merged(Box({-2.4, -0.4, -9}, {-1.6, 0.4, 9}), Box({1.6, -0.4, -9}, {2.4, 0.4, 9}));
+  TriangleMesh ladder = Merged(Box({-2, -0.2, -0.2}, {2, 0.2, 0.2}), posts);
+  for (TriangleMesh::Vertex& v : ladder.vertices) {
+    const double x = v[0] / std::sqrt(2.0), y = v[1] / std::sqrt(6.0), z = v[2] / std::sqrt(3.0);
+    v = {x + y + z, -x + y + z, z - 2 * y};
+  }
+  for (const SurfaceComponent& component : AnalyzeMesh(ladder).components) {
+    EXPECT_EQ(component.depth, 0);
+  }
+}
+
 TEST(MeshReport, TellsTheTwoRulesApartForShellsOfOneOrientation) {
   const MeshReport report = AnalyzeMesh(Merged(Sphere({0, 0, 0}, 3), Sphere({0, 0, 0}, 2)));
   EXPECT_EQ(report.SolidByWinding(), (SolidTopology{1, 0, 0}));

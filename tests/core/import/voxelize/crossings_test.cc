@@ -49,7 +49,9 @@ TEST(Crossings, OfASurfaceWithItselfAreToldFromThoseOfParts) {
   EXPECT_EQ(CountIn(mesh).within_parts, 0u);
   EXPECT_EQ(CountIn(mesh).between_parts, 1u);
   mesh.vertices.push_back({-9, 9, 9});
-  mesh.triangles.push_back({2, 5, 6});  // connects them
+  mesh.triangles.push_back({2, 5, 6});  // has a vertex of each
+  EXPECT_EQ(CountIn(mesh).within_parts, 0u);
+  mesh.triangles.insert(mesh.triangles.end(), {{0, 2, 6}, {4, 5, 6}});  // connect them
   EXPECT_EQ(CountIn(mesh).within_parts, 1u);
   EXPECT_EQ(CountIn(mesh).between_parts, 0u);
 }
