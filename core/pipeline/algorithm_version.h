@@ -7,10 +7,10 @@ namespace bccskel {
 
 // Changes whenever the same volume and options may give a different skeleton. Part of the key of
 // stored results.
-inline constexpr char kAlgorithmVersion[] = "28";
+inline constexpr char kAlgorithmVersion[] = "29";
 
 // The same for masks; it also changes with their conversion.
-inline constexpr char kMaskAlgorithmVersion[] = "28.mask-10";
+inline constexpr char kMaskAlgorithmVersion[] = "29.mask-11";
 
 constexpr const char* AlgorithmVersionOf(ObjectSource source) {
   return source == ObjectSource::kPoints ? kAlgorithmVersion : kMaskAlgorithmVersion;

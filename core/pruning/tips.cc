@@ -9,6 +9,7 @@
 #include "core/distance/places.h"
 #include "core/pruning/ball_index.h"
 #include "core/pruning/branch_walk.h"
+#include "core/pruning/cross_section.h"
 #include "core/pruning/firm_depth.h"
 #include "core/pruning/flat_end.h"
 #include "core/pruning/grow_along.h"
@@ -16,6 +17,7 @@
 #include "core/pruning/last_limb.h"
 #include "core/pruning/limb_anchor.h"
 #include "core/pruning/pruning_defaults.h"
+#include "core/pruning/ridge_end.h"
 #include "core/pruning/tip_steps.h"
 
 namespace bccskel {
@@ -31,9 +33,8 @@ constexpr double kGrowthMargin = 6;    // plus lattice units
 constexpr double kLongStep = 2;        // from this step on by one radius only: caps are too coarse
 constexpr double kOffArc = 0.25;  // largest distance of points from a limb's arc, in its height
 constexpr double kOffArcAtRoot = kOffArc / 2;  // the same where the arc begins at the root
-// The limb turns if its ridge continues by more radii plus lattice units beyond its straight part.
-constexpr double kTurnRadii = 0.75;
-constexpr double kTurnMargin = 2;
+// In radii: half-widths across a disc's rib and across its shaft, so far before the disc.
+constexpr double kWide = 1.8, kRound = 1.5, kBeforeDisc = 3;
 constexpr double kLimbAfterFlat = 0.95;  // least significance; corners of strips reach 0.9
 constexpr int kMajority = 7;             // object points with fewer object neighbors are bumps
 constexpr int kThinner = 3;              // in thin limbs: with so many fewer than the median
@@ -48,6 +49,7 @@ class TipPlacer {
         radius_(radius),
         depth_(depths.firm),
         steps_(set, object, depths.firm),
+        sections_(object),
         flat_(object, depths.searching, depths.firm),  // it ends at the border
         last_limb_(object, noise),
         keep_(keep),
@@ -62,8 +64,9 @@ class TipPlacer {
     if (!set_.Contains(end) || !set_.IsEnd(end)) return;
     FreeBranch branch = BranchFrom(set_, end);
     FindRoot(branch);
+    CutTurned(branch, &TurnedTips::Tip::is_rib);
     if (CutFlat(branch)) return;
-    CutTurned(branch);
+    CutTurned(branch, &TurnedTips::Tip::in_cap);
     anchor_ = TakeAnchor(set_, step_, branch);
     if (branch.points.empty()) return;
     path_.assign(branch.points.rbegin(), branch.points.rend());
@@ -84,12 +87,13 @@ class TipPlacer {
     std::vector<LatticePoint>& points = path.points;
     junction_ = branch.junction;
     own_ = points;
+    limb_radius_ = MedianOf(RadiiOf(own_));
     if (junction_.has_value()) {
       points.insert(points.begin(), *junction_);
     } else {
       points.erase(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(points.size() / 2));
     }
-    for (LatticePoint p : points) path.radii.push_back(set_.RadiusOf(p));
+    path.radii = RadiiOf(points);
     root_ = points[0];
     if (points.size() >= 2) {
       const Run run = LargestRun(set_, path, noise_);
@@ -98,14 +102,41 @@ class TipPlacer {
     root_radius_ = set_.RadiusOf(root_);
   }
 
+  std::vector<float> RadiiOf(std::span<const LatticePoint> points) const {
+    std::vector<float> radii;
+    for (LatticePoint p : points) radii.push_back(set_.RadiusOf(p));
+    return radii;
+  }
+
   // Removes the tip that turns aside, so that the limb is extended straight on.
-  void CutTurned(FreeBranch& branch) {
-    const std::span<const LatticePoint> turned = turned_.At(branch.points);
+  void CutTurned(FreeBranch& branch, bool TurnedTips::Tip::*kind) {
+    const TurnedTips::Tip* turned = turned_.At(branch.points);
+    if (turned == nullptr || !(turned->*kind)) return;
     const auto is_kept = [&](LatticePoint p) { return keep_.contains(p); };
-    if (turned.empty() || std::ranges::any_of(turned, is_kept)) return;
-    for (LatticePoint p : turned) set_.Remove(p);
-    branch = BranchFrom(set_, branch.points[turned.size()]);
+    if (std::ranges::any_of(turned->points, is_kept)) return;
+    if (kind == &TurnedTips::Tip::is_rib && !LiesInDisc(turned->points, branch)) return;
+    for (LatticePoint p : turned->points) set_.Remove(p);
+    branch = BranchFrom(set_, branch.points[turned->points.size()]);
     FindRoot(branch);
+  }
+
+  // Whether the object is wide across the rib, at the end of a limb that is not.
+  bool LiesInDisc(std::span<const LatticePoint> rib, const FreeBranch& branch) {
+    const LatticePoint fork = branch.points[rib.size()];
+    const auto limb = std::span(branch.points).subspan(rib.size());
+    const auto before = std::ranges::find_if(limb, [&](LatticePoint p) {
+      return set_.Between(p, fork) >= kBeforeDisc * set_.RadiusOf(fork);
+    });
+    return before != limb.end() && WidthAt(*before, set_.Way(*before, fork)) <= kRound &&
+           WidthAt(rib[rib.size() / 2], set_.Way(fork, rib[0])) >= kWide;
+  }
+
+  // The half-width across a direction, in radii.
+  double WidthAt(LatticePoint p, const Coordinates& way) {
+    const double radius = set_.RadiusOf(p), reach = 2 * kWide * radius;
+    CrossSection section = sections_.Across(PlaceOf(p, scale_), Unit(way), radius, reach);
+    sections_.Refine(reach, section);
+    return section.half_width / radius;
   }
 
   // In flat limbs the distance to the background does not show where the limb ends.
@@ -176,21 +207,6 @@ class TipPlacer {
     return best;
   }
 
-  // Position in the path of the last point up to which the depth falls by less than 0.3 per unit of
-  // the path, wherever that leads.
-  size_t RidgeEndFrom(size_t first) {
-    size_t best = first;
-    double length = 0, most = depth_.At(path_[first]);
-    for (size_t n = first + 1; n < path_.size(); ++n) {
-      length += set_.Between(path_[n - 1], path_[n]);
-      const double merit = kRidgeSlope * length + depth_.At(path_[n]);
-      if (merit < most) continue;
-      best = n;
-      most = merit;
-    }
-    return best;
-  }
-
   // Position in the path of the first point that is about as good as the best.
   size_t SafestFrom(size_t first) {
     const double enough = Merit(path_[BestFrom(first)]) - least_gain_;
@@ -242,9 +258,7 @@ class TipPlacer {
     size_t last = path_.size() - 1;
     while (last > 0 && !IsFirm(path_[last])) --last;
     const double length = set_.Between(path_[last], path_.back());
-    std::vector<float> radii;
-    for (LatticePoint p : path_) radii.push_back(set_.RadiusOf(p));
-    const double longest = std::min<double>(kHairLength, kHairRadii * MedianOf(std::move(radii)));
+    const double longest = std::min<double>(kHairLength, kHairRadii * MedianOf(RadiiOf(path_)));
     if (IsFirm(path_[last]) && length <= longest) CutAfter(last);
   }
 
@@ -278,11 +292,10 @@ class TipPlacer {
   size_t GrowAnew(size_t first) {
     if (!IsFirm(path_.back())) return first;
     const size_t straight = FirstThatShowsWay(BestFrom(first, kRidgeSlope));
-    const size_t ridge_end = RidgeEndFrom(first);
-    const bool turns = set_.Between(path_[straight], path_[ridge_end]) >
-                       kTurnRadii * set_.RadiusOf(path_[ridge_end]) + kTurnMargin;
-    CutAfter(turns ? ridge_end : straight);
-    if (turns) first = ridge_end;
+    const std::optional<size_t> turned =
+        RidgeEndAside(set_, depth_, {path_, first, path_[straight], limb_radius_});
+    CutAfter(turned.value_or(straight));
+    first = turned.value_or(first);
     ridge_end_ = path_.back();
     WayOn on = WayOnFrom(set_, step_, anchor_, path_);
     if (FollowBend()) on.way = direction_;
@@ -345,6 +358,7 @@ class TipPlacer {
   ExactRadius radius_;
   FirmDepth& depth_;
   TipSteps steps_;
+  CrossSections sections_;
   FlatEnd flat_;
   LastLimb last_limb_;
   const PointSet& keep_;
@@ -358,6 +372,7 @@ class TipPlacer {
   std::vector<LatticePoint> own_;         // its points
   LatticePoint root_;                     // where the limb begins; it may be cut off
   double root_radius_ = 0;
+  double limb_radius_ = 0;    // median
   int majority_ = kMajority;  // in this limb
   LatticePoint anchor_;
   LatticePoint origin_;             // of the way along the limb

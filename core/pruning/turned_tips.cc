@@ -11,7 +11,9 @@ namespace bccskel {
 namespace {
 
 constexpr double kStraight = 0.77;  // cosine of 40 degrees
-constexpr double kLongest = 1.6;    // in radii of the fork
+constexpr double kLongest = 1.6;    // in radii of the fork, of tips in caps
+constexpr double kShortest = 1.2;   // the same of ribs
+constexpr double kBack = -0.1;      // cosine of 96 degrees, for ribs
 constexpr double kLimbRadii = 2;    // least length of the limb, in radii of the fork
 constexpr double kLimbWorth = 2;    // least worth of a free limb, in worths of the other arm
 constexpr double kTwin = 1.15;      // largest worth of a tip that turns aside, in thresholds
@@ -51,15 +53,6 @@ std::optional<Coordinates> WayOfLimb(const ThinSet& set, const Arm& limb, Lattic
   return std::nullopt;
 }
 
-bool TurnsAside(const ThinSet& set, const Arm& arm, const Arm& limb) {
-  const std::optional<Coordinates> in = WayOfLimb(set, limb, arm.fork);
-  const Coordinates out = set.Way(arm.fork, arm.points.back());
-  const double length = std::sqrt(Dot(out, out));
-  if (!in.has_value() || length > kLongest * set.RadiusOf(arm.fork)) return false;
-  const double cosine = Dot(*in, out) / (std::sqrt(Dot(*in, *in)) * length);
-  return cosine > 0 && cosine < kStraight;
-}
-
 }  // namespace
 
 void TurnedTips::Note(const ThinSet& set, const FreeBranch& going,
@@ -74,25 +67,38 @@ void TurnedTips::Note(const ThinSet& set, const FreeBranch& going,
   const bool second = !arms[0].is_free || (arms[1].is_free && arms[1].worth < arms[0].worth);
   const Arm &aside = arms[second ? 1 : 0], &limb = arms[second ? 0 : 1];
   if (limb.is_free && limb.worth < kLimbWorth * aside.worth) return;
-  if (!TurnsAside(set, aside, limb)) return;
-  tips_[aside.points.back()].push_back({{aside.points.rbegin(), aside.points.rend()}, aside.worth});
+  const std::optional<Coordinates> in = WayOfLimb(set, limb, aside.fork);
+  if (!in.has_value()) return;
+  const Coordinates out = set.Way(aside.fork, aside.points.back());
+  const double length = std::sqrt(Dot(out, out)), radius = set.RadiusOf(aside.fork);
+  const double cosine = Dot(*in, out) / (std::sqrt(Dot(*in, *in)) * length);
+  if (cosine >= kStraight) return;
+  Tip tip = {{aside.points.rbegin(), aside.points.rend()}, aside.worth};
+  tip.in_cap = cosine > 0 && length <= kLongest * radius;
+  tip.is_rib = cosine > kBack && length > kShortest * radius &&
+               set.Between(aside.fork, limb.points.back()) >= length;
+  tips_[aside.points.back()].push_back(std::move(tip));
 }
 
 void TurnedTips::DropFrom(double threshold) {
   for (auto& [end, tips] : tips_) {
-    std::erase_if(tips, [&](const Tip& tip) { return tip.worth >= kTwin * threshold; });
+    for (Tip& tip : tips) {
+      tip.in_cap = tip.in_cap && tip.worth < kTwin * threshold;
+      tip.is_rib = tip.is_rib && tip.worth < threshold;
+    }
+    std::erase_if(tips, [](const Tip& tip) { return !tip.in_cap && !tip.is_rib; });
   }
 }
 
-std::span<const LatticePoint> TurnedTips::At(std::span<const LatticePoint> branch) const {
-  std::span<const LatticePoint> longest;
+const TurnedTips::Tip* TurnedTips::At(std::span<const LatticePoint> branch) const {
   const auto found = tips_.find(branch.front());
-  if (found == tips_.end()) return longest;
+  if (found == tips_.end()) return nullptr;
+  const Tip* longest = nullptr;
   for (const Tip& tip : found->second) {
-    const bool fits = tip.points.size() + 1 < branch.size() && tip.points.size() > longest.size();
-    if (fits && std::ranges::equal(tip.points, branch.first(tip.points.size()))) {
-      longest = tip.points;
-    }
+    const size_t size = tip.points.size();
+    const bool fits =
+        size + 1 < branch.size() && (longest == nullptr || size > longest->points.size());
+    if (fits && std::ranges::equal(tip.points, branch.first(size))) longest = &tip;
   }
   return longest;
 }

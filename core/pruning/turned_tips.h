@@ -17,7 +17,10 @@ namespace bccskel {
 //        becomes the end of the limb. So this records the other before the removal, if
 //        - it leaves the direction of the limb by 40 to 90 degrees: a smaller angle continues the
 //          limb, a larger one belongs to another limb;
-//        - it is at most 1.6 radii of the fork long, so it lies in the cap of the limb;
+//        - it is at most 1.6 radii of the fork long, so it lies in the cap of the limb, or it may
+//        be
+//          a rib, such as one of those of a disc at the end of a shaft: longer than 1.2 radii, but
+//          no longer than the limb. Then the angle may be 96 degrees;
 //        - the limb before it is a curve at least two radii long and, if that curve has a free end
 //          as well, is worth at least twice as much.
 // Why it is right: nothing is removed here, and recorded points form a path from an end.
@@ -30,19 +33,21 @@ class TurnedTips {
   void Note(const ThinSet& set, const FreeBranch& going, std::span<const LatticePoint> cluster,
             const WorthOf& worth_of);
 
-  // Forgets tips worth 1.15 thresholds or more: those are limbs.
+  // Forgets tips worth 1.15 thresholds or more and ribs worth one: those are limbs.
   void DropFrom(double threshold);
 
-  // The longest recorded tip that is the beginning, but not all, of `branch` (FreeBranch::points);
-  // its end comes first. Empty if there is none.
-  std::span<const LatticePoint> At(std::span<const LatticePoint> branch) const;
-
- private:
   struct Tip {
     std::vector<LatticePoint> points;  // the end first
     double worth = 0;
+    bool in_cap = false;
+    bool is_rib = false;  // if it lies in a flat part
   };
 
+  // The longest recorded tip that is the beginning, but not all, of `branch` (FreeBranch::points);
+  // null if there is none.
+  const Tip* At(std::span<const LatticePoint> branch) const;
+
+ private:
   std::map<LatticePoint, std::vector<Tip>> tips_;  // by the end
 };
 

@@ -1,6 +1,8 @@
 // Limbs whose last part thinning reaches: feet, beaks and teeth keep their curves.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -80,6 +82,47 @@ TEST(LastParts, TeethOfADiskKeepTheirCurves) {
       const double angle = 2 * std::numbers::pi * n / kTeeth, out = kDisk + kTooth / 2;
       const WorldPoint tooth = {out * std::cos(angle), out * std::sin(angle), 0};
       EXPECT_LT(GapAt(tooth, result->graph, kCells, turn), 0.6 * kTooth) << turn << ' ' << n;
+    }
+  }
+}
+
+// The curve into a pear turns from the vessel's way and gets thinner by 0.4 per unit.
+TEST(LastParts, PearsKeepTheirPoints) {
+  constexpr int32_t kCells = 80;
+  const WorldPoint center = {0, 0, 0}, point = {0, 0, -45};
+  const std::array<WorldPoint, 5> vessel = {
+      center, {9, 0, 28}, {27, 0, 35}, {45, 0, 50}, {60, 0, 68}};
+  const auto pear = [&](const WorldPoint& p) {
+    double distance = ToLimb(p, center, 27, point, 9);
+    for (size_t n = 1; n < vessel.size(); ++n) {
+      distance = std::min(distance, ToLimb(p, vessel[n - 1], 6, vessel[n], 6));
+    }
+    return distance <= 0;
+  };
+  for (const double turn : {0.0, 0.4, 1.0, 1.6, 2.8}) {
+    const auto result = Skeletonize(test::Sampled(pear, kCells, turn), {}, {});
+    ASSERT_TRUE(result.ok()) << result.status();
+    EXPECT_LT(GapAt(point, result->graph, kCells, turn), 5) << turn;
+  }
+}
+
+// Of the curves from the middle of a disc to its rim pruning leaves the last one, which then
+// continues the shaft.
+TEST(LastParts, DiscsOnShaftsEndTheCurveInTheirMiddle) {
+  constexpr int32_t kCells = 80;
+  constexpr double kShaft = 6;
+  for (const double half_thickness : {0.6, 0.8, 1.2}) {
+    const double rim = (half_thickness < 0.7 ? 6 : 4) * kShaft;
+    const auto nail = [&](const WorldPoint& p) {
+      const double out = std::hypot(p[1], p[2]);
+      const bool in_disc = out <= rim && std::abs(p[0] - 40) <= half_thickness * kShaft;
+      return in_disc || (out <= kShaft && p[0] > -60 && p[0] < 40);
+    };
+    for (const double turn : {0.0, 0.3, 0.8}) {
+      const auto result = Skeletonize(test::Sampled(nail, kCells, turn), {}, {});
+      ASSERT_TRUE(result.ok()) << result.status();
+      EXPECT_LT(GapAt({40, 0, 0}, result->graph, kCells, turn), 1.5 * kShaft)
+          << half_thickness << ' ' << turn;
     }
   }
 }
