@@ -87,7 +87,7 @@ std::array<Admission::Part, 2> Admission::PartsOf(const std::string& tenant) con
                usage}};
 }
 
-absl::Status Admission::Take(const std::string& tenant, const Usage& wanted) {
+absl::Status Admission::Take(const std::string& tenant, const Usage& wanted, uint64_t held) {
   for (const Part& part : PartsOf(tenant)) {
     BCCSKEL_RETURN_IF_ERROR(CheckFits(part.whose, wanted.bytes, part.limit.bytes, kWhereDeclared));
     if (part.usage.places + wanted.places > part.limit.places) {
@@ -99,11 +99,12 @@ absl::Status Admission::Take(const std::string& tenant, const Usage& wanted) {
     }
     const uint64_t free_bytes = part.limit.bytes - std::min(part.limit.bytes, part.usage.bytes);
     if (wanted.bytes > free_bytes) {
-      return CallError(
-          Reason::kMemoryBusy,
-          absl::StrFormat("the volume needs up to %d bytes of memory, %d of %d are free "
-                          "now for %s",
-                          wanted.bytes, free_bytes, part.limit.bytes, part.whose));
+      const char* const more = held > 0 ? "more " : "";
+      return MemoryBusy(
+          absl::StrFormat("the volume needs up to %d %sbytes of memory, %d of %d are "
+                          "free now for %s",
+                          wanted.bytes, more, free_bytes, part.limit.bytes, part.whose),
+          held + wanted.bytes);
     }
   }
   if (usage_.bytes + wanted.bytes + freed_ > limits_.bytes) {
@@ -122,7 +123,7 @@ absl::Status Admission::Grow(const Ticket& ticket, uint64_t bytes) {
   for (const Part& part : PartsOf(ticket.tenant_)) {
     BCCSKEL_RETURN_IF_ERROR(CheckFits(part.whose, bytes, part.limit.bytes, kWhereCounted));
   }
-  return Take(ticket.tenant_, {.bytes = bytes - ticket.bytes(), .places = 0});
+  return Take(ticket.tenant_, {.bytes = bytes - ticket.bytes(), .places = 0}, ticket.bytes());
 }
 
 void Admission::SetTenants(const TenantTable& tenants) {

@@ -32,7 +32,8 @@ class Ticket {
   // Releases the memory above `bytes`.
   void ShrinkTo(uint64_t bytes);
   // Shrinks or grows the reservation to `bytes`.
-  // Errors: a CallError: kTooMuchMemory or kMemoryBusy; the ticket is then unchanged.
+  // Errors: a CallError: kTooMuchMemory, or kMemoryBusy with NeededBytesOf(); the ticket is then
+  //         unchanged.
   absl::Status ResizeTo(uint64_t bytes);
   // Releases the place among the jobs and keeps the memory.
   void LeavePlace();
@@ -76,7 +77,7 @@ class Admission {
       : limits_(limits), reclaim_(std::move(reclaim)) {}
 
   // Errors: a CallError: kTooMuchMemory if the job could never be admitted, else kQueueFull,
-  //         kMemoryBusy or kDraining.
+  //         kMemoryBusy with NeededBytesOf() or kDraining.
   absl::StatusOr<Ticket> Admit(const std::string& tenant, uint64_t bytes);
   absl::StatusOr<Ticket> Admit(uint64_t bytes) { return Admit(std::string(), bytes); }
 
@@ -102,7 +103,8 @@ class Admission {
   };
   // Needs of these: mutex_ held.
   std::array<Part, 2> PartsOf(const std::string& tenant) const;
-  absl::Status Take(const std::string& tenant, const Usage& part);
+  // `held` bytes of the job are taken already.
+  absl::Status Take(const std::string& tenant, const Usage& wanted, uint64_t held = 0);
   absl::Status Grow(const Ticket& ticket, uint64_t bytes);
   enum class Leaving { kNo, kYes };
   void GiveBack(const std::string& tenant, const Usage& part, Leaving leaving = Leaving::kNo);

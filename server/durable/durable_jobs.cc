@@ -177,6 +177,9 @@ void DurableJobs::Tick(std::stop_token stop) {
 JobRequest DurableJobs::RunnerRequest(JobRequest request, const JobRow& job) {
   request.origin = {.tenant = job.tenant, .priority = PriorityOf(job)};
   request.threads_wanted = job.threads;
+  // A job that has run into the memory of others begins again once its need of then is free.
+  // Otherwise it would compete with them, and give up its work, again and again.
+  request.min_bytes = NeededBytesOf(job.error).value_or(0);
   return request;
 }
 

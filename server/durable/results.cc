@@ -215,7 +215,7 @@ void DurableJobs::RunFailed(Run* run, const absl::Status& error) {
   const bool again = absl::IsUnavailable(error) || absl::IsCancelled(error);
   if (!jobs.empty()) {
     EnterState(jobs, again ? JobState::kQueued : JobState::kFailed,
-               again ? absl::OkStatus() : error);
+               absl::IsCancelled(error) ? absl::OkStatus() : error);
   }
   if (!again || jobs.empty()) return Schedule();
   retry_wanted_ = true;

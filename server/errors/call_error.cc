@@ -35,6 +35,7 @@ const Meaning& MeaningOf(Reason reason) { return kMeanings[static_cast<size_t>(r
 constexpr char kPayloadUrl[] = "bccskel.server/fault";
 constexpr char kWireUrl[] = "type.googleapis.com/google.rpc.ErrorInfo";
 constexpr char kCommittedSize[] = "committed_size";
+constexpr char kNeededBytes[] = "needed_bytes";
 
 struct Stated {
   Reason reason = Reason::kServerDefect;
@@ -52,6 +53,12 @@ std::optional<Stated> StatedBy(const absl::Status& status) {
                   {.field = parts[3], .quota = parts[4], .key = parts[1], .value = parts[2]}};
   }
   return std::nullopt;
+}
+
+std::optional<uint64_t> NumberOf(const absl::Status& status, const char* key) {
+  const ErrorDetails details = DetailsOf(status);
+  if (details.key != key) return std::nullopt;
+  return std::strtoull(details.value.c_str(), nullptr, 10);
 }
 
 std::string TextOf(const absl::Status& status) { return std::string(status.message()); }
@@ -80,6 +87,11 @@ absl::Status WrongOffset(const std::string& message, uint64_t committed_bytes) {
                    {.key = kCommittedSize, .value = absl::StrCat(committed_bytes)});
 }
 
+absl::Status MemoryBusy(const std::string& message, uint64_t needed_bytes) {
+  return CallError(Reason::kMemoryBusy, message,
+                   {.key = kNeededBytes, .value = absl::StrCat(needed_bytes)});
+}
+
 absl::Status DiskFull(const std::string& message, const std::string& quota) {
   return CallError(Reason::kDiskFull, message, {.quota = quota, .key = "limit", .value = quota});
 }
@@ -98,9 +110,11 @@ ErrorDetails DetailsOf(const absl::Status& status) {
 }
 
 std::optional<uint64_t> CommittedSizeOf(const absl::Status& status) {
-  const ErrorDetails details = DetailsOf(status);
-  if (details.key != kCommittedSize) return std::nullopt;
-  return std::strtoull(details.value.c_str(), nullptr, 10);
+  return NumberOf(status, kCommittedSize);
+}
+
+std::optional<uint64_t> NeededBytesOf(const absl::Status& status) {
+  return NumberOf(status, kNeededBytes);
 }
 
 const char* NameOf(Reason reason) { return MeaningOf(reason).name; }

@@ -73,6 +73,8 @@ absl::Status InvalidField(const std::string& field, const std::string& descripti
 absl::Status InvalidVolume(const std::string& message);
 // OUT_OF_RANGE: the caller should resume at `committed_bytes`.
 absl::Status WrongOffset(const std::string& message, uint64_t committed_bytes);
+// UNAVAILABLE: the job would need `needed_bytes` of memory in all.
+absl::Status MemoryBusy(const std::string& message, uint64_t needed_bytes);
 // RESOURCE_EXHAUSTED: the disk space limit `quota` is used up, or "disk", the disk itself.
 absl::Status DiskFull(const std::string& message, const std::string& quota);
 
@@ -83,6 +85,8 @@ std::optional<Reason> ReasonOf(const absl::Status& status);
 ErrorDetails DetailsOf(const absl::Status& status);
 // The size at which a caller with a wrong offset should resume.
 std::optional<uint64_t> CommittedSizeOf(const absl::Status& status);
+// The memory that a job needs which found too little of it.
+std::optional<uint64_t> NeededBytesOf(const absl::Status& status);
 
 // "FIELD_INVALID", ...
 const char* NameOf(Reason reason);

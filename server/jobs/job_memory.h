@@ -1,6 +1,7 @@
 #ifndef BCCSKEL_SERVER_JOBS_JOB_MEMORY_H_
 #define BCCSKEL_SERVER_JOBS_JOB_MEMORY_H_
 
+#include <algorithm>
 #include <cstdint>
 #include <mutex>
 #include <string>
@@ -20,12 +21,14 @@ namespace bccskel::server {
 // Threads: safe.
 class JobMemory final : public exec::MemoryBudget {
  public:
-  explicit JobMemory(Ticket ticket) : ticket_(std::move(ticket)), base_(ticket_.bytes()) {}
+  // Never holds less than `min_bytes` before Close(). Needs: the ticket holds as much.
+  explicit JobMemory(Ticket ticket, uint64_t min_bytes = 0)
+      : min_bytes_(min_bytes), ticket_(std::move(ticket)), base_(ticket_.bytes()) {}
 
   // Sets the job's need apart from what its stages take. Errors: a CallError.
   absl::Status SetBase(uint64_t bytes) {
     const std::lock_guard lock(mutex_);
-    absl::Status status = ticket_.ResizeTo(bytes + taken_);
+    absl::Status status = ticket_.ResizeTo(AtLeast(bytes + taken_));
     if (status.ok()) base_ = bytes;
     return status;
   }
@@ -33,7 +36,7 @@ class JobMemory final : public exec::MemoryBudget {
   // Errors: a CallError that names `what_for`.
   absl::Status Take(uint64_t bytes, const std::string& what_for) override {
     const std::lock_guard lock(mutex_);
-    absl::Status status = ticket_.ResizeTo(SaturatingAdd(base_ + taken_, bytes));
+    absl::Status status = ticket_.ResizeTo(AtLeast(SaturatingAdd(base_ + taken_, bytes)));
     if (status.ok()) {
       taken_ += bytes;
       return status;
@@ -45,7 +48,7 @@ class JobMemory final : public exec::MemoryBudget {
     const std::lock_guard lock(mutex_);
     if (closed_) return;
     taken_ -= bytes;
-    ticket_.ShrinkTo(base_ + taken_);
+    ticket_.ShrinkTo(AtLeast(base_ + taken_));
   }
 
   // Ends the budget: the returned ticket holds the reservation.
@@ -56,6 +59,9 @@ class JobMemory final : public exec::MemoryBudget {
   }
 
  private:
+  uint64_t AtLeast(uint64_t bytes) const { return std::max(bytes, min_bytes_); }
+
+  const uint64_t min_bytes_;
   mutable std::mutex mutex_;
   Ticket ticket_;       // guarded by mutex_, as are the members below
   uint64_t base_;       // without what stages take

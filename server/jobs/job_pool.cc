@@ -73,9 +73,10 @@ absl::StatusOr<std::shared_ptr<Job>> JobPool::Launch(const JobWish& wish, uint64
                                                      std::shared_ptr<UploadListener> listener,
                                                      MakeWork make_work) {
   BCCSKEL_RETURN_IF_ERROR(limits_.CheckVolumeBytes(wish.size_bytes));
-  BCCSKEL_ASSIGN_OR_RETURN(Ticket ticket, admission_.Admit(wish.origin.tenant, bytes));
+  BCCSKEL_ASSIGN_OR_RETURN(Ticket ticket,
+                           admission_.Admit(wish.origin.tenant, std::max(bytes, wish.min_bytes)));
   observer_.on_admitted(wish.size_bytes);
-  PoolJobFacts facts = {RandomName("jobs"), wish.origin, wish.deadline, observer_};
+  PoolJobFacts facts = {RandomName("jobs"), wish.origin, wish.deadline, wish.min_bytes, observer_};
   return MakePoolJob(std::move(facts), make_work(), std::move(ticket), std::move(listener),
                      PoolJobThreads{decoders_, finishers, compute_});
 }

@@ -55,6 +55,8 @@ struct JobWish {
   uint64_t size_bytes = 0;  // of the encoded volume
   SkeletonizeOptions options;
   int threads_wanted = 0;  // 0 leaves it to the server
+  // Memory that the job holds at least, from its admission to its end.
+  uint64_t min_bytes = 0;
   exec::Context::Clock::time_point deadline = exec::Context::Clock::time_point::max();
 };
 

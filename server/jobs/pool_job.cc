@@ -44,7 +44,7 @@ class PoolJob : public Job, public std::enable_shared_from_this<PoolJob> {
       : facts_(std::move(facts)),
         threads_(threads),
         work_(std::move(work)),
-        memory_(std::make_shared<JobMemory>(std::move(ticket))),
+        memory_(std::make_shared<JobMemory>(std::move(ticket), facts_.min_bytes)),
         listener_(std::move(listener)) {}
 
   const std::string& name() const override { return facts_.name; }

@@ -21,6 +21,7 @@ struct PoolJobFacts {
   std::string name;
   JobOrigin origin;
   exec::Context::Clock::time_point deadline;
+  uint64_t min_bytes;  // as in JobWish
   const JobObserver& observer;
 };
 

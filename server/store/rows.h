@@ -80,8 +80,9 @@ struct JobRow {
   int crashes = 0;        // of the server while the job ran
   uint64_t sequence = 0;  // of the last stored event
   std::string owner;      // the process that runs the job; empty if none
-  absl::Status error;     // why it failed; details as payloads, see proto/wire/error_details.h
-  int64_t result = 0;     // a ResultRow's number
+  // Why it failed or waits again; details as payloads, see proto/wire/error_details.h.
+  absl::Status error;
+  int64_t result = 0;           // a ResultRow's number
   std::optional<Time> started;  // the last attempt
   std::optional<Time> ended;
 };

@@ -74,7 +74,9 @@ TEST(Admission, ATicketGrowsWhileThereIsRoom) {
   const Ticket other = *admission.Admit(50);
   EXPECT_TRUE(ticket.ResizeTo(50).ok());
   EXPECT_EQ(admission.usage(), (Usage{.bytes = 100, .places = 2}));
-  EXPECT_EQ(ReasonOf(ticket.ResizeTo(51)), Reason::kMemoryBusy);
+  const absl::Status busy = ticket.ResizeTo(51);
+  EXPECT_EQ(ReasonOf(busy), Reason::kMemoryBusy);
+  EXPECT_EQ(NeededBytesOf(busy), 51u) << "of the whole job";
   EXPECT_EQ(ReasonOf(ticket.ResizeTo(101)), Reason::kVolumeTooLarge);
   EXPECT_EQ(ticket.bytes(), 50u) << "a refused ticket stays as it was";
   EXPECT_TRUE(ticket.ResizeTo(5).ok());

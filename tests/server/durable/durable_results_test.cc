@@ -87,6 +87,23 @@ TEST_F(DurableResultsTest, WaitsForARunnerThatIsBusy) {
   EXPECT_EQ(ended.attempts, 1) << "a refusal is no attempt";
 }
 
+TEST_F(DurableResultsTest, WaitsForTheMemoryThatItLackedWhileItRan) {
+  runner_->RunShort(100);
+  const std::string job = CreateName("clinic", JobOf(Upload("clinic", "volume")));
+  JobInfo waiting = *GetJob("clinic", job);
+  while (waiting.attempts == 0 || waiting.state == JobState::kRunning) {
+    waiting = *GetJob("clinic", job);
+  }
+  EXPECT_EQ(ReasonOf(waiting.error), Reason::kMemoryBusy) << waiting.error;
+  runner_->RunShort(0);
+  const auto watcher = WatchToTheEnd("clinic", job);
+  EXPECT_EQ(watcher->States(), "12123") << "it waited and did not try in vain";
+  EXPECT_EQ(runner_->min_bytes(), 100u);
+  const JobInfo ended = *GetJob("clinic", job);
+  EXPECT_EQ(ended.attempts, 2);
+  EXPECT_TRUE(ended.error.ok()) << ended.error;
+}
+
 TEST_F(DurableResultsTest, FailsWithTheRunnersError) {
   const std::string job = CreateName("clinic", JobOf(Upload("clinic", "bad!")));
   const JobInfo ended = WaitForEnd("clinic", job);

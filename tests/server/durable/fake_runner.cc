@@ -8,6 +8,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"
 #include "core/volume/volume.h"
+#include "server/errors/call_error.h"
 
 namespace bccskel::server {
 namespace {
@@ -90,6 +91,10 @@ class FakeJob final : public Job, public std::enable_shared_from_this<FakeJob> {
       listener_->OnShell({.shell = shell, .last_shell = kShells}, std::chrono::milliseconds(shell));
     }
     std::unique_lock lock(runner_.mutex_);
+    if (const uint64_t needed = runner_.needed_bytes_; needed > 0) {
+      lock.unlock();
+      return End(MemoryBusy("too little is free", needed));
+    }
     ++runner_.computing_;
     runner_.changed_.notify_all();
     const auto end = [self = shared_from_this()] { self->Succeed(); };
@@ -138,10 +143,14 @@ void FakeRunner::Serve(std::stop_token stop) {
   }
 }
 
-absl::StatusOr<std::shared_ptr<Job>> FakeRunner::Start(JobRequest,
+absl::StatusOr<std::shared_ptr<Job>> FakeRunner::Start(JobRequest request,
                                                        std::shared_ptr<JobListener> listener) {
   std::lock_guard lock(mutex_);
   BCCSKEL_RETURN_IF_ERROR(refusal_);
+  if (needed_bytes_ > 0 && request.min_bytes >= needed_bytes_) {
+    return MemoryBusy("too little is free", request.min_bytes);
+  }
+  min_bytes_ = request.min_bytes;
   ++started_;
   return std::make_shared<FakeJob>(*this, std::move(listener));
 }
@@ -173,6 +182,11 @@ void FakeRunner::Refuse(absl::Status status) {
   refusal_ = std::move(status);
 }
 
+void FakeRunner::RunShort(uint64_t needed_bytes) {
+  std::lock_guard lock(mutex_);
+  needed_bytes_ = needed_bytes;
+}
+
 void FakeRunner::WaitForComputing(int jobs) {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [&] { return computing_ >= jobs; });
@@ -181,6 +195,11 @@ void FakeRunner::WaitForComputing(int jobs) {
 int FakeRunner::started() const {
   std::lock_guard lock(mutex_);
   return started_;
+}
+
+uint64_t FakeRunner::min_bytes() const {
+  std::lock_guard lock(mutex_);
+  return min_bytes_;
 }
 
 int FakeRunner::computed() const {

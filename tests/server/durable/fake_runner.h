@@ -43,10 +43,14 @@ class FakeRunner final : public JobRunner {
   void HoldDecoding();
   // Start() refuses; an OK status lets jobs in again.
   void Refuse(absl::Status status);
+  // Jobs need so many bytes and end for lack of them, and no job may begin that asks for them; 0
+  // lets all have their memory again.
+  void RunShort(uint64_t needed_bytes);
   // Until so many jobs have begun to compute since the start, or were cancelled before.
   void WaitForComputing(int jobs);
   int started() const;
-  int computed() const;  // to the end
+  int computed() const;        // to the end
+  uint64_t min_bytes() const;  // of the last job that began
 
  private:
   friend class FakeJob;
@@ -54,10 +58,11 @@ class FakeRunner final : public JobRunner {
 
   mutable std::mutex mutex_;
   std::condition_variable_any changed_;
-  std::vector<std::function<void()>> tasks_;  // guarded by mutex_
-  bool held_ = false;                         // guarded by mutex_
-  bool decoding_held_ = false;                // guarded by mutex_
-  absl::Status refusal_;                      // guarded by mutex_
+  std::vector<std::function<void()>> tasks_;   // guarded by mutex_
+  bool held_ = false;                          // guarded by mutex_
+  bool decoding_held_ = false;                 // guarded by mutex_
+  absl::Status refusal_;                       // guarded by mutex_
+  uint64_t needed_bytes_ = 0, min_bytes_ = 0;  // guarded by mutex_
   int started_ = 0, computing_ = 0, computed_ = 0;
   std::vector<std::function<void()>> waiting_;  // guarded by mutex_: ends of held jobs
   std::jthread thread_;

@@ -118,5 +118,30 @@ TEST(JobMemory, ReservesWhatThePointsTakeUntilTheResultIsLetGoOf) {
   WaitFor(pool, 0);
 }
 
+TEST(JobMemory, KeepsWhatTheJobWasPromisedUntilItsEnd) {
+  Admission admission({.bytes = 100, .places = 1});
+  JobMemory memory(*admission.Admit(60), 60);
+  ASSERT_TRUE(memory.SetBase(10).ok());
+  ASSERT_TRUE(memory.Take(30, "points").ok());
+  EXPECT_EQ(admission.usage().bytes, 60u);
+  ASSERT_TRUE(memory.Take(40, "points").ok());
+  EXPECT_EQ(admission.usage().bytes, 80u);
+  memory.GiveBack(70);
+  EXPECT_EQ(admission.usage().bytes, 60u);
+  EXPECT_EQ(memory.Close().bytes(), 60u);
+}
+
+TEST(JobMemory, AdmitsAJobWithTheBytesThatItAsksFor) {
+  Encoded encoded = Encode(Dust(32), VolumeEncoding::kRawPlanes, VolumeCompression::kNone);
+  encoded.request.min_bytes = uint64_t{1} << 30;
+  JobPool pool(Limits(encoded.request.min_bytes));
+  const auto listener = std::make_shared<Listener>();
+  const std::shared_ptr<Job> job = *pool.Start(encoded.request, listener);
+  EXPECT_EQ(ReasonOf(pool.Start(encoded.request, std::make_shared<Listener>()).status()),
+            Reason::kMemoryBusy);
+  job->Cancel();
+  EXPECT_TRUE(absl::IsCancelled(listener->Result().status()));
+}
+
 }  // namespace
 }  // namespace bccskel::server
