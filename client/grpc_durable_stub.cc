@@ -78,7 +78,7 @@ class GrpcDurableStub final : public DurableStub {
     if (begun == Begun::kMaybe) {
       BCCSKEL_ASSIGN_OR_RETURN(committed, CommittedSize(upload, deadline));
     }
-    return Attempt(*channel_, stop, deadline, [&](grpc::ClientContext& context) {
+    return Try(stop, deadline, [&](grpc::ClientContext& context) {
       return Send(context, upload, volume, committed);
     });
   }
@@ -141,7 +141,7 @@ class GrpcDurableStub final : public DurableStub {
     v1::WatchJobRequest request;
     request.set_job(job);
     request.set_after_sequence(after_sequence);
-    return Attempt(*channel_, stop, deadline, [&](grpc::ClientContext& context) {
+    return Try(stop, deadline, [&](grpc::ClientContext& context) {
       const auto stream = jobs_->WatchJob(&context, request);
       v1::WatchJobResponse response;
       while (stream->Read(&response)) {
@@ -156,7 +156,7 @@ class GrpcDurableStub final : public DurableStub {
     v1::ReadSkeletonRequest request;
     request.set_job(job);
     request.set_piece_index(reading.pieces());
-    return Attempt(*channel_, stop, deadline, [&](grpc::ClientContext& context) {
+    return Try(stop, deadline, [&](grpc::ClientContext& context) {
       const auto stream = jobs_->ReadSkeleton(&context, request);
       v1::ReadSkeletonResponse piece;
       absl::Status taken;
@@ -169,9 +169,14 @@ class GrpcDurableStub final : public DurableStub {
 
  private:
   template <typename Do>
+  auto Try(const std::stop_token& stop, Deadline deadline, Do call)
+      -> decltype(call(std::declval<grpc::ClientContext&>())) {
+    return WithoutForeignCancel(Attempt(*channel_, stop, deadline, std::move(call)), stop);
+  }
+  template <typename Do>
   absl::Status Call(Deadline deadline, Do call) {
-    return Attempt(*channel_, {}, deadline,
-                   [&](grpc::ClientContext& context) { return FromGrpcStatus(call(context)); });
+    return Try({}, deadline,
+               [&](grpc::ClientContext& context) { return FromGrpcStatus(call(context)); });
   }
 
   // 0 for an upload that the server does not know.

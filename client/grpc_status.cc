@@ -21,4 +21,10 @@ absl::Status FromGrpcStatus(const grpc::Status& status) {
   return absl::Status(code, status.error_message());
 }
 
+absl::Status WithoutForeignCancel(const absl::Status& error, const std::stop_token& stop) {
+  const bool wanted = stop.stop_requested() || wire::ErrorInfoOf(error).has_value();
+  if (!absl::IsCancelled(error) || wanted) return error;
+  return absl::UnavailableError("the server has cancelled the call; it may be about to stop");
+}
+
 }  // namespace bccskel::client

@@ -17,7 +17,6 @@
 #include "client/volume_declaration.h"
 #include "core/exec/status_macros.h"
 #include "core/io/volume_decoder.h"
-#include "proto/wire/error_details.h"
 #include "proto/wire/options.h"
 #include "proto/wire/result.h"
 #include "proto/wire/shell_points.h"
@@ -125,14 +124,6 @@ class SkeletonizeCall final : private UploadCall<v1::SkeletonizeRequest, v1::Ske
   std::optional<v1::SkeletonSummary> summary_;
   std::optional<Clock::time_point> first_chunk_at_;
 };
-
-// gRPC cancels calls that reach a stopping server: reports CANCELLED that nobody here requested as
-// UNAVAILABLE.
-absl::Status WithoutForeignCancel(const absl::Status& error, const std::stop_token& stop) {
-  const bool wanted = stop.stop_requested() || wire::ErrorInfoOf(error).has_value();
-  if (!absl::IsCancelled(error) || wanted) return error;
-  return absl::UnavailableError("the server has cancelled the call; it may be about to stop");
-}
 
 class GrpcStub : public Stub {
  public:

@@ -36,6 +36,8 @@ namespace {
 
 // Time for calls without a job, such as a watched health status, to end by themselves.
 constexpr std::chrono::milliseconds kLastReplies(100);
+// Time for the answers of unary calls, which mostly wait for the disk.
+constexpr std::chrono::seconds kLastAnswers(5);
 
 // "QUEUED", "RUNNING", ...
 std::string StateName(JobState state) {
@@ -141,7 +143,7 @@ class Server::Services {
     Add(plan, *jobs_, v1::JobService::service_full_name());
     Add(plan, *server_, v1::ServerService::service_full_name());
   }
-  void CutOff() { gate_.CutOff(); }
+  void CutOff() { gate_.CutOff(kLastAnswers); }
   void EnforceCallLimits() { gate_.EnforceCallLimits(); }
   void AddAdmin(ListenerPlan& plan) {
     Add(plan, *admin_, v1::AdminService::service_full_name());

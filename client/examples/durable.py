@@ -26,18 +26,22 @@ CALL_S, STREAM_S = 60, 3600
 ENDED = (jobs.JOB_STATE_SUCCEEDED, jobs.JOB_STATE_FAILED, jobs.JOB_STATE_CANCELLED)
 
 
-# OUT_OF_RANGE: bytes of a broken stream arrived after the query of their number.
-AGAIN = (grpc.StatusCode.UNAVAILABLE, grpc.StatusCode.OUT_OF_RANGE)
+def is_unavailable(error):
+    """Also of a call that gRPC cancels because it reaches a server that is about to stop: such an
+    error, unlike those of the server's own, has no reason."""
+    cancelled = error.code() == grpc.StatusCode.CANCELLED and not error_reason(error)
+    return cancelled or error.code() == grpc.StatusCode.UNAVAILABLE
 
 
-def patiently(attempt, patience_s=120, again=AGAIN[:1]):
+def patiently(attempt, patience_s=120, again=()):
     """Retries while the server is unavailable or busy; every call here may be repeated."""
     give_up, pause = time.monotonic() + patience_s, 0.1
     while True:
         try:
             return attempt()
         except grpc.RpcError as error:
-            if error.code() not in again or time.monotonic() > give_up:
+            worth_it = is_unavailable(error) or error.code() in again
+            if not worth_it or time.monotonic() > give_up:
                 raise
         time.sleep(pause)
         pause = min(2 * pause, 5)
@@ -82,7 +86,8 @@ def send_volume(channel, declaration, data, upload=None):
         return stub.UploadVolume(upload_requests(upload, declaration, data, offset),
                                  timeout=STREAM_S)
 
-    return patiently(send, again=AGAIN).upload.volume
+    # OUT_OF_RANGE: bytes of a broken stream arrived after the query of their number.
+    return patiently(send, again=(grpc.StatusCode.OUT_OF_RANGE,)).upload.volume
 
 
 def create_job(channel, volume, **wanted):
@@ -106,7 +111,7 @@ def watch(channel, job, after_sequence=0):
             if not ended:
                 raise RuntimeError(f"the watch ended before {job} did")
         except grpc.RpcError as error:
-            if error.code() != grpc.StatusCode.UNAVAILABLE:
+            if not is_unavailable(error):
                 raise
             time.sleep(0.2)
 

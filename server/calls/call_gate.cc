@@ -114,8 +114,11 @@ std::optional<Sha256Digest> DigestOf(const v1::VolumeFinish& finish) {
 }
 
 void OpenStreams::Add(const std::shared_ptr<OpenStream>& call, const CallFacts& facts) {
-  std::lock_guard lock(mutex_);
+  std::unique_lock lock(mutex_);
   calls_[call.get()] = {call, facts.authorization, facts.tenant, facts.tokens};
+  const absl::Status ended = ended_;
+  lock.unlock();
+  if (!ended.ok()) call->EndEarly(ended);
 }
 
 void OpenStreams::Remove(const OpenStream& call) {
@@ -134,6 +137,7 @@ void OpenStreams::EndAll(const absl::Status& why) {
   std::vector<std::shared_ptr<OpenStream>> calls;
   {
     std::lock_guard lock(mutex_);
+    ended_ = why;
     for (const auto& [pointer, entry] : calls_) {
       if (auto call = entry.call.lock()) calls.push_back(std::move(call));
     }
@@ -160,9 +164,10 @@ void OpenStreams::EnforceLimits() {
   }
 }
 
-void CallGate::CutOff() {
+void CallGate::CutOff(std::chrono::milliseconds timeout) {
   cut_off_ = true;
   open_streams_.EndAll(Stopping());
+  unanswered_.WaitForAll(timeout);
 }
 
 absl::StatusOr<CallFacts> CallGate::Enter(const grpc::CallbackServerContext& context,
@@ -173,6 +178,8 @@ absl::StatusOr<CallFacts> CallGate::Enter(const grpc::CallbackServerContext& con
                      .context = &context};
   facts.cut_off = &cut_off_;
   facts.open_streams = &open_streams_;
+  facts.unanswered = &unanswered_;
+  if (cut_off_) return Refused(facts, Stopping());
   // Before the check, so that a file that changes meanwhile leads to another one.
   facts.tokens = callers_.generation();
   const auto authorization = AuthorizationOf(context);

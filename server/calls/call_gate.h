@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -47,12 +48,13 @@ class OpenStreams {
   OpenStreams(const Callers& callers, const CallerTimeouts& timeouts)
       : callers_(callers), timeouts_(timeouts) {}
 
-  // Watches the call until Remove().
+  // Watches the call until Remove(). Ends it at once after EndAll().
   void Add(const std::shared_ptr<OpenStream>& call, const CallFacts& facts);
   void Remove(const OpenStream& call);
 
   // Called once a second.
   void EnforceLimits();
+  // Ends all calls, also those that begin later.
   void EndAll(const absl::Status& why);
 
  private:
@@ -69,6 +71,31 @@ class OpenStreams {
   const CallerTimeouts timeouts_;
   std::mutex mutex_;
   std::map<const OpenStream*, Entry> calls_;  // guarded by mutex_
+  absl::Status ended_;                        // guarded by mutex_: why all were ended
+};
+
+// The unary calls that wait for their answers.
+// Threads: safe.
+class UnansweredCalls {
+ public:
+  void Begin() {
+    std::lock_guard lock(mutex_);
+    ++calls_;
+  }
+  void End() {
+    std::lock_guard lock(mutex_);
+    if (--calls_ == 0) none_.notify_all();
+  }
+  // Returns when there are none, or after `timeout`.
+  void WaitForAll(std::chrono::milliseconds timeout) {
+    std::unique_lock lock(mutex_);
+    none_.wait_for(lock, timeout, [this] { return calls_ == 0; });
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable none_;
+  int calls_ = 0;  // guarded by mutex_
 };
 
 // A method of the interface.
@@ -96,6 +123,7 @@ struct CallFacts {
   // Watches streaming calls; null: nobody does. Outlives the call.
   OpenStreams* open_streams = nullptr;
   const grpc::CallbackServerContext* context = nullptr;  // valid until gRPC is done with the call
+  UnansweredCalls* unanswered = nullptr;                 // null: nobody counts. Outlives the call.
 
   bool IsCutOff() const { return cut_off != nullptr && *cut_off; }
 
@@ -128,7 +156,7 @@ class CallGate {
                     DurableJobs* durable_jobs = nullptr)
       : callers_(callers), durable_jobs_(durable_jobs), open_streams_(callers, timeouts) {}
 
-  // Errors: UNAUTHENTICATED for a missing or wrong token.
+  // Errors: UNAUTHENTICATED for a missing or wrong token; UNAVAILABLE after CutOff().
   absl::StatusOr<CallFacts> Enter(const grpc::CallbackServerContext& context,
                                   const Method& method) const;
   // Errors: as Enter(); PERMISSION_DENIED if the caller is not an admin.
@@ -147,9 +175,10 @@ class CallGate {
 
   DurableJobs* durable_jobs() const { return durable_jobs_; }  // null without a data directory
 
-  // Ends the streaming calls with DRAINING. From now on cancelled calls count as aborted by the
-  // server.
-  void CutOff();
+  // Refuses every further call, and ends the streaming ones, with DRAINING: a call that gRPC itself
+  // cancels as it stops tells its caller no reason. From now on cancelled calls count as aborted by
+  // the server. Returns when the unary calls are answered, or after `timeout`.
+  void CutOff(std::chrono::milliseconds timeout);
   // Called once a second.
   void EnforceCallLimits() { open_streams_.EnforceLimits(); }
 
@@ -157,6 +186,7 @@ class CallGate {
   const Callers& callers_;
   DurableJobs* const durable_jobs_;
   mutable OpenStreams open_streams_;
+  mutable UnansweredCalls unanswered_;
   std::atomic<bool> cut_off_ = false;
 };
 

@@ -20,9 +20,9 @@ class UnaryEnd {
  public:
   // `subject` as in CallFacts::LogEnded(). Needs: created once per call.
   UnaryEnd(grpc::CallbackServerContext& context, CallFacts facts, std::string subject)
-      : reactor_(context.DefaultReactor()),
-        facts_(std::move(facts)),
-        subject_(std::move(subject)) {}
+      : reactor_(context.DefaultReactor()), facts_(std::move(facts)), subject_(std::move(subject)) {
+    if (facts_.unanswered != nullptr) facts_.unanswered->Begin();
+  }
 
   void set_subject(const std::string& subject) { subject_ = subject; }
   grpc::ServerUnaryReactor* reactor() const { return reactor_; }
@@ -31,6 +31,7 @@ class UnaryEnd {
   grpc::ServerUnaryReactor* operator()(const absl::Status& status) const {
     facts_.LogEnded(subject_, status);  // first: a caller with the answer may look at the log
     reactor_->Finish(ToGrpcStatus(status));
+    if (facts_.unanswered != nullptr) facts_.unanswered->End();
     return reactor_;
   }
 

@@ -463,6 +463,32 @@ class OneCallTest(DurableTest):
 
 
 class ExampleTest(DurableTest):
+    def test_it_tries_again_what_a_stopping_server_cancels_and_not_what_a_caller_cancels(self):
+        class Cancelled(grpc.RpcError):
+            def __init__(self, reason=None):
+                super().__init__()
+                info = rpc_details_pb2.ErrorInfo(reason=reason)
+                detail = {"type_url": "type.googleapis.com/google.rpc.ErrorInfo",
+                          "value": info.SerializeToString()}
+                status = rpc_details_pb2.Status(details=[detail] if reason else [])
+                self.trailing_metadata = lambda: (("grpc-status-details-bin",
+                                                   status.SerializeToString()),)
+                self.code = lambda: Code.CANCELLED
+
+        def calls(*errors):
+            left = list(errors)
+
+            def call():
+                if left:
+                    raise left.pop(0)
+                return "done"
+
+            return call
+
+        self.assertEqual(durable.patiently(calls(Cancelled())), "done")
+        with self.assertRaises(Cancelled):
+            durable.patiently(calls(Cancelled("CANCELLED")))
+
     def test_the_example_runs_as_its_text_says(self):
         server = self.start()
         done = subprocess.run(
