@@ -79,13 +79,14 @@ void DurableJobs::FollowDeleted(int64_t number) {
   if (found == nullptr) return;
   JobRow job = found->row;
   job.state = JobState::kCancelled;
+  job.error = JobCancelled();
   ++job.sequence;
   job.ended = Now();
   Apply(Step{job});
   watches_.Tell(number, {.sequence = job.sequence,
                          .time = *job.ended,
                          .what = JobEvent::StateChange{
-                             .state = job.state, .attempt = job.attempts, .error = {}}});
+                             .state = job.state, .attempt = job.attempts, .error = job.error}});
   QueueWaiting();
 }
 

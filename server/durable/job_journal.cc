@@ -53,7 +53,8 @@ absl::StatusOr<Step> JobJournal::Enter(JobStore& store, JobRow job, JobState sta
                                        absl::Status error, std::optional<uint64_t> from) {
   const Time time = now_();
   job.state = state;
-  job.error = std::move(error);
+  const bool untold = state == JobState::kCancelled && error.ok();
+  job.error = untold ? JobCancelled() : std::move(error);
   job.sequence = NextSequence(job.number, job.sequence);
   job.owner = state == JobState::kRunning ? owner_ : std::string();
   if (state == JobState::kRunning) {

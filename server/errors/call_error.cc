@@ -96,6 +96,8 @@ absl::Status DiskFull(const std::string& message, const std::string& quota) {
   return CallError(Reason::kDiskFull, message, {.quota = quota, .key = "limit", .value = quota});
 }
 
+absl::Status JobCancelled() { return CallError(Reason::kCancelled, "the job was cancelled"); }
+
 bool StatesReason(const absl::Status& status) {
   return ReasonOf(status).has_value() || status.GetPayload(kWireUrl).has_value();
 }

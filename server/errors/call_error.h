@@ -78,6 +78,9 @@ absl::Status MemoryBusy(const std::string& message, uint64_t needed_bytes);
 // RESOURCE_EXHAUSTED: the disk space limit `quota` is used up, or "disk", the disk itself.
 absl::Status DiskFull(const std::string& message, const std::string& quota);
 
+// CANCELLED: by a call that asked for it.
+absl::Status JobCancelled();
+
 // Whether the status states a reason, from CallError() or from proto/wire.
 bool StatesReason(const absl::Status& status);
 // nullopt unless CallError() made the status.

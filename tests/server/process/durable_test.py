@@ -2,6 +2,7 @@
 
 import concurrent.futures
 import hashlib
+import json
 import os
 import signal
 import subprocess
@@ -460,6 +461,18 @@ class OneCallTest(DurableTest):
             if policy == service.DISCONNECT_POLICY_CONTINUE:
                 durable.send_volume(self.channel, declaration, data, accepted.upload)
             self.assertEqual(self.finish(accepted.job)[-1], state)
+
+    def test_a_cancelled_job_says_so(self):
+        server = self.start()
+        job = self.create(durable.send_volume(self.channel, *large_volume())).name
+        self.jobs.CancelJob(jobs.CancelJobRequest(job=job))
+        self.assertEqual(self.get(job).error.code, Code.CANCELLED.value[0])
+        *_, last = durable.watch(self.channel, job)
+        self.assertEqual(last.state_change.error.code, Code.CANCELLED.value[0])
+        lines = [json.loads(line) for line in server.log_text().splitlines()]
+        states = {line["state"]: line for line in lines if line["event"] == "job state"}
+        self.assertEqual((states["CANCELLED"]["code"], states["CANCELLED"]["reason"]),
+                         ("CANCELLED", "CANCELLED"))
 
 
 class ExampleTest(DurableTest):
