@@ -33,6 +33,14 @@ class DurableSession final : public SkeletonizeSession,
       next(*self, *value);
     };
   }
+  // The same for a request about the upload. If that is gone, the error says why the job ended.
+  template <typename Function>
+  auto ThenOfUpload(Function next) {
+    return [self = shared_from_this(), next = std::move(next)](auto value) {
+      if (absl::IsNotFound(value.status())) return self->UploadGone(value.status());
+      self->Then(next)(std::move(value));
+    };
+  }
 
  public:
   DurableSession(std::shared_ptr<Call> call, DurableJobs& durable_jobs, UploadWriters& writers)
@@ -59,7 +67,8 @@ class DurableSession final : public SkeletonizeSession,
   void Append(v1::VolumeChunk& chunk) override {
     const std::optional<uint32_t> crc32c = Crc32cOf(chunk);
     durable_jobs_.Append(tenant(), upload_, chunk.offset(), std::move(*chunk.mutable_data()),
-                         crc32c, Then([](DurableSession& it, uint64_t) { it.call_->ReadNext(); }));
+                         crc32c,
+                         ThenOfUpload([](DurableSession& it, uint64_t) { it.call_->ReadNext(); }));
   }
   void Finish(const v1::VolumeFinish& finish) override {
     {
@@ -67,7 +76,7 @@ class DurableSession final : public SkeletonizeSession,
       volume_sent_ = true;
     }
     durable_jobs_.FinishUpload(tenant(), upload_, finish.size_bytes(), DigestOf(finish),
-                               Then([](DurableSession& it, const VolumeInfo&) {
+                               ThenOfUpload([](DurableSession& it, const VolumeInfo&) {
                                  it.WatchJob();
                                  it.call_->ReadNext();  // to detect requests after the finish
                                }));
@@ -111,8 +120,7 @@ class DurableSession final : public SkeletonizeSession,
     if (!event.IsCompleted()) return;
     const auto& change = std::get<JobEvent::StateChange>(event.what);
     if (change.state == JobState::kSucceeded) return OpenResult();
-    call_->EndWith(change.error.ok() ? absl::CancelledError("the job was cancelled")
-                                     : WithJobReason(change.error));
+    call_->EndWith(JobError(change.error));
   }
   void OnWatchEnd(const absl::Status& status) override {
     if (!status.ok()) call_->EndWith(StorageError(status));
@@ -144,6 +152,19 @@ class DurableSession final : public SkeletonizeSession,
       if (left_) return LeaveJob();  // the caller does not know its name
     }
     writers_.Claim({tenant(), upload.name}, shared_from_this());
+  }
+  static absl::Status JobError(const absl::Status& error) {
+    return error.ok() ? JobCancelled() : WithJobReason(error);
+  }
+  void UploadGone(const absl::Status& error) {
+    durable_jobs_.GetJob(tenant(), job_,
+                         [self = shared_from_this(), error](const absl::StatusOr<JobInfo>& job) {
+                           absl::Status end = error;
+                           if (absl::IsNotFound(job.status()))
+                             end = absl::CancelledError("the job was deleted");
+                           if (job.ok() && IsTerminal(job->state)) end = JobError(job->error);
+                           self->call_->EndWith(StorageError(end));
+                         });
   }
   void WatchJob() {
     auto watch = durable_jobs_.WatchJob(tenant(), job_, 0, shared_from_this());

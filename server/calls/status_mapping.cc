@@ -7,6 +7,7 @@
 #include "proto/wire/error_details.h"
 #include "server/errors/call_error.h"
 #include "server/logging/json_log.h"
+#include "server/store/file_io.h"
 
 namespace bccskel::server {
 namespace {
@@ -48,6 +49,10 @@ std::string ReasonNameOf(const absl::Status& status) {
 
 absl::Status StorageError(const absl::Status& status) {
   if (status.ok() || StatesReason(status)) return status;
+  if (IsMissingFile(status)) {
+    Log(LogLevel::kError, "storage failed", {{"message", std::string(status.message())}});
+    return absl::UnavailableError("a file of the server's stored data is missing at the moment");
+  }
   if (!absl::IsInternal(status)) return WithDiskReason(status);
   Log(LogLevel::kError, "storage failed", {{"message", std::string(status.message())}});
   return absl::InternalError("the server cannot read or write its stored data");

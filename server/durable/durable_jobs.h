@@ -244,6 +244,9 @@ class DurableJobs final : public RunObserver {
   static absl::Status StoreMove(JobStore& store, const UploadRow& old, const std::string& to);
   // Another server has taken the upload over.
   absl::Status Superseded(const Session& session);
+  // The error of a write to the upload's files: they are missing once it has been deleted, or
+  // continues on another server.
+  absl::Status WriteError(const Session& session, const absl::Status& error);
   // Also removes the files; the bytes still count toward the quota.
   void DropSession(const UploadRow& row);
   static RemovalRow RemovalOf(const UploadRow& row);

@@ -7,6 +7,7 @@
 #include "server/errors/call_error.h"
 #include "server/jobs/chunk_checksum.h"
 #include "server/jobs/names.h"
+#include "server/store/file_io.h"
 
 namespace bccskel::server {
 
@@ -144,7 +145,7 @@ Flow DurableJobs::Append(std::string tenant, std::string upload, uint64_t offset
   if (!status.ok()) co_return done(std::move(status));
   status = CheckChunk(bytes, crc32c);
   if (status.ok()) status = session->file().Append(bytes);
-  if (shared_ && absl::IsNotFound(status)) status = Superseded(session);
+  if (!status.ok()) status = WriteError(session, status);
   const std::shared_ptr<Run> decoder = status.ok() ? session->decoder() : nullptr;
   if (decoder != nullptr) {
     const absl::Status decoded = co_await Await<absl::Status>(
@@ -155,6 +156,12 @@ Flow DurableJobs::Append(std::string tenant, std::string upload, uint64_t offset
   session->EndWriting(Now());
   if (!status.ok()) co_return done(std::move(status));
   done(session->committed());
+}
+
+absl::Status DurableJobs::WriteError(const Session& session, const absl::Status& error) {
+  if (!IsMissingFile(error)) return error;
+  if (shared_) return Superseded(session);
+  return absl::NotFoundError(absl::StrCat("there is no upload ", session->row().name));
 }
 
 void DurableJobs::SenderGone(const std::string& tenant, const std::string& upload) {

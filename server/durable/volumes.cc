@@ -50,8 +50,7 @@ Flow DurableJobs::FinishUpload(std::string tenant, std::string upload, uint64_t 
   const absl::StatusOr<Sha256Digest> digest = session->file().Seal();
   if (!digest.ok()) {
     session->EndWriting(Now());
-    const bool superseded = shared_ && absl::IsNotFound(digest.status());
-    co_return done(superseded ? Superseded(session) : digest.status());
+    co_return done(WriteError(session, digest.status()));
   }
   const absl::Status error = CheckDigest(digest->Hex(), sha256);
   if (!error.ok()) {

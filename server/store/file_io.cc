@@ -10,6 +10,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "absl/strings/cord.h"
 #include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"
 
@@ -28,7 +29,14 @@ std::string FolderOf(const std::string& path) {
 
 constexpr size_t kReadBytes = size_t{1} << 20;
 
+// Marks NOT_FOUND for a file, unlike that for a name of a caller.
+constexpr char kMissingFile[] = "bccskel.server/missing-file";
+
 }  // namespace
+
+bool IsMissingFile(const absl::Status& status) {
+  return status.GetPayload(kMissingFile).has_value();
+}
 
 absl::Status SystemError(const std::string& what, int number) {
   const std::string message = absl::StrCat(what, ": ", std::strerror(number));
@@ -40,8 +48,11 @@ absl::Status SystemError(const std::string& what, int number) {
     case ENFILE:
     case EMFILE:
       return absl::UnavailableError("too many files are open");
-    case ENOENT:
-      return absl::NotFoundError(message);
+    case ENOENT: {
+      absl::Status missing = absl::NotFoundError(message);
+      missing.SetPayload(kMissingFile, absl::Cord());
+      return missing;
+    }
     default:
       return absl::InternalError(message);
   }

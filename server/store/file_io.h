@@ -17,6 +17,8 @@ namespace bccskel::server {
 // Converts the system's error `number` while doing `what`: RESOURCE_EXHAUSTED when disk or quota
 // are full; UNAVAILABLE when too many files are open; NOT_FOUND; else INTERNAL.
 absl::Status SystemError(const std::string& what, int number);
+// Whether SystemError() made the status because a file or folder is missing.
+bool IsMissingFile(const absl::Status& status);
 
 // An open file. Errors of all: see SystemError().
 // Threads: one at a time.

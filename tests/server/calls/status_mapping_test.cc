@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cerrno>
 #include <string>
 
 #include "proto/wire/error_details.h"
 #include "server/errors/call_error.h"
+#include "server/store/file_io.h"
 
 namespace bccskel::server {
 namespace {
@@ -75,6 +77,14 @@ TEST(StatusMapping, AFullDiskIsNoQuotaOfTheServer) {
   const absl::Status back = Back(ToGrpcStatus(full));
   EXPECT_EQ(wire::ErrorInfoOf(back)->reason(), "DISK_FULL");
   EXPECT_EQ(wire::QuotaFailureOf(back)->violations(0).subject(), "disk");
+}
+
+TEST(StatusMapping, AMissingFileIsNotNamed) {
+  const absl::Status status = StorageError(SystemError("cannot open /srv/secret", ENOENT));
+  EXPECT_EQ(status.code(), absl::StatusCode::kUnavailable);
+  EXPECT_EQ(std::string(status.message()).find("/srv"), std::string::npos) << status;
+  const absl::Status unknown = absl::NotFoundError("there is no job jobs/1");
+  EXPECT_EQ(StorageError(unknown), unknown);
 }
 
 TEST(StatusMapping, AnErrorKeepsItsReason) {

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <string>
 
 #include "core/digest/crc32c.h"
@@ -71,6 +72,13 @@ TEST_F(DurableUploadsTest, RefusesAChunkWithAnotherChecksumAndKeepsTheRest) {
   const absl::Status wrong = Append("clinic", upload, 3, "456", Crc32c("457")).status();
   EXPECT_EQ(ReasonOf(wrong), Reason::kChunkChecksum);
   EXPECT_EQ(GetUpload("clinic", upload)->committed_bytes, 3u);
+}
+
+TEST_F(DurableUploadsTest, NamesNoFileThatIsGone) {
+  const auto upload = CreateUpload("clinic", {.name = {}, .declaration = "9", .then_job = {}});
+  for (const std::string& file : FilesIn("uploads")) std::filesystem::remove(file);
+  const absl::Status status = Append("clinic", upload->name, 0, "x").status();
+  EXPECT_EQ(status, absl::NotFoundError("there is no upload " + upload->name));
 }
 
 TEST_F(DurableUploadsTest, LetsOneWriterWriteAtATime) {

@@ -462,6 +462,26 @@ class OneCallTest(DurableTest):
                 durable.send_volume(self.channel, declaration, data, accepted.upload)
             self.assertEqual(self.finish(accepted.job)[-1], state)
 
+    def test_a_call_whose_job_is_ended_while_it_sends_is_cancelled(self):
+        self.start()
+        ends = (lambda it: self.jobs.CancelJob(jobs.CancelJobRequest(job=it.job)),
+                lambda it: self.jobs.DeleteJob(jobs.DeleteJobRequest(job=it.job)),
+                lambda it: self.volumes.DeleteUpload(
+                    volumes.DeleteUploadRequest(upload=it.upload)))
+        for end in ends:
+            go_on = threading.Event()
+
+            def requests():
+                all_of_them = large_requests()
+                yield next(all_of_them)
+                go_on.wait(server_process.TIMEOUT_S)
+                yield from all_of_them
+
+            replies = service_grpc.SkeletonizationServiceStub(self.channel).Skeletonize(requests())
+            end(next(replies).accepted)
+            go_on.set()
+            self.fails(Code.CANCELLED, "CANCELLED", lambda: list(replies))
+
     def test_a_cancelled_job_says_so(self):
         server = self.start()
         job = self.create(durable.send_volume(self.channel, *large_volume())).name
