@@ -283,9 +283,11 @@ void Server::ReloadNow() {
 void Server::EnforceCallLimits() { services_->EnforceCallLimits(); }
 
 void Server::UpdateDataHealth() {
-  const DurableJobs* const durable_jobs = durable_jobs_.get();
+  DurableJobs* const durable_jobs = durable_jobs_.get();
   if (durable_jobs == nullptr) return;
   const absl::Status health = durable_jobs->Health();
+  // Whoever balances load calls an unhealthy server no more.
+  if (!health.ok()) durable_jobs->Probe();
   if (health.ok() == data_healthy_) return;
   data_healthy_ = health.ok();
   for (const char* service :

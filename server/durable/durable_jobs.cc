@@ -271,6 +271,10 @@ Flow DurableJobs::Erase(std::function<absl::Status(JobStore& store, Erased& eras
   Schedule();
 }
 
+void DurableJobs::Probe() {
+  loop_.Post([](JobStore&) { return absl::OkStatus(); }, [](const absl::Status&) {});
+}
+
 DurableUsage DurableJobs::usage() const {
   return {.healthy = Health().ok(),
           .disk_bytes = quota_.used(),

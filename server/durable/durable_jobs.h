@@ -146,6 +146,8 @@ class DurableJobs final : public RunObserver {
   // Not OK when confirmed data may be lost or read wrongly because the tables are damaged or
   // missing. OK on a full disk.
   absl::Status Health() const { return loop_.Health(); }
+  // Tries the store, for Health() to learn soon whether it works again even if nobody calls.
+  void Probe();
 
   // For Open(), which calls Recover() next, once.
   DurableJobs(const DurableOptions& options, JobRunner& runner, const JobCodec& codec,

@@ -214,6 +214,14 @@ TEST_F(DurableFilesTest, TellsWhenItsTablesAreGone) {
   EXPECT_TRUE(durable_jobs_->Health().ok());
 }
 
+TEST_F(DurableFilesTest, LearnsWithoutACallThatItsTablesAreBack) {
+  Open();
+  std::filesystem::rename(Path("jobs.db"), Path("moved"));
+  EXPECT_FALSE(GetJob("clinic", job_).ok());
+  std::filesystem::rename(Path("moved"), Path("jobs.db"));
+  while (!durable_jobs_->Health().ok()) durable_jobs_->Probe();
+}
+
 // A server that is killed at any moment, and what it has confirmed until then.
 class KilledServer {
  public:

@@ -133,9 +133,9 @@ class DamageTest(DurableTest):
         self.assertEqual(health(self.channel, "bccskel.v1.SkeletonizationService"), 1)
         self.fails(Code.DATA_LOSS, "STORED_DATA_DAMAGED", lambda: self.create(name))
         (self.data / "moved").rename(self.data / "jobs.db")
-        self.done_job(name)
         for service in durable_services:
-            self.wait_for_health(service, 1)
+            self.wait_for_health(service, 1)  # without a call: none may come before
+        self.done_job(name)
         server.wait_for_event("data is damaged")
         server.wait_for_event("data is intact again")
 
