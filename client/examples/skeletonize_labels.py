@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """Sends a numpy array of labels to a bccskel server and reads one skeleton graph per label.
 
-Needs what skeletonize.py beside it needs. An array is labels[z, y, x] of an unsigned integer type:
-the number of the object that a voxel belongs to, 0 for the background.
+Needs what skeletonize.py beside it needs. An array is labels[z, y, x] of an integer type:
+the number of the object that a voxel belongs to, 0 for the background, none negative.
 
   PYTHONPATH=stubs python3 client/examples/skeletonize_labels.py cells.npy --min-voxels 100
 """
@@ -21,6 +21,18 @@ from skeletonize import CHUNK_BYTES, add, assemble, empty_columns, error_reason
 
 TYPES = {1: volume_pb2.LABEL_TYPE_UINT8, 2: volume_pb2.LABEL_TYPE_UINT16,
          4: volume_pb2.LABEL_TYPE_UINT32, 8: volume_pb2.LABEL_TYPE_UINT64}
+
+
+def as_labels(volume):
+    """The array as one of the types that the server takes. Errors: TypeError, ValueError."""
+    volume = np.asarray(volume)
+    if volume.ndim != 3:
+        raise ValueError(f"labels have the shape (nz, ny, nx), not {volume.shape}")
+    if volume.dtype.kind not in "bui":
+        raise TypeError(f"labels are integers, not {volume.dtype}: convert the array with astype()")
+    if volume.min(initial=0) < 0:
+        raise ValueError(f"labels are not negative; the least one is {volume.min()}")
+    return volume.astype(f"u{volume.itemsize}", copy=False)
 
 
 def declare(volume, spacing):
@@ -50,7 +62,8 @@ def requests(volume, spacing, config):
 
 def skeletonize_labels(channel, volume, spacing=1.0, on_progress=None, timeout=600, **config):
     """Yields (label, Skeleton) in ascending order, as soon as they arrive. `config`: labels,
-    min_voxels, options, threads. Raises grpc.RpcError."""
+    min_voxels, options, threads. Raises grpc.RpcError, and TypeError or ValueError as as_labels()."""
+    volume = as_labels(volume)
     stub = service_grpc.SkeletonizationServiceStub(channel)
     columns, done, summary = {}, 0, None
     for reply in stub.SkeletonizeLabels(requests(volume, spacing, config), timeout=timeout):
@@ -71,7 +84,7 @@ def skeletonize_labels(channel, volume, spacing=1.0, on_progress=None, timeout=6
 
 def main():
     parser = argparse.ArgumentParser(description="Skeletonizes the labels of a numpy array.")
-    parser.add_argument("array", help=".npy file, unsigned integers of shape (nz, ny, nx)")
+    parser.add_argument("array", help=".npy file, integers of shape (nz, ny, nx)")
     parser.add_argument("--server", default="127.0.0.1:50051")
     parser.add_argument("--spacing", type=float, nargs="+", default=[1.0],
                         help="edge of the voxel, one value or one per axis x, y, z")
@@ -87,6 +100,8 @@ def main():
                 print(f"label {label}: {len(skeleton.node)} nodes, {len(skeleton.ends)} edges, "
                       f"{betti.components} components, {betti.loops} loops, "
                       f"{betti.cavities} cavities")
+    except (TypeError, ValueError) as error:
+        sys.exit(f"{arguments.array}: {error}")
     except grpc.RpcError as error:
         sys.exit(f"{error.code().name} ({error_reason(error)}): {error.details()}")
 

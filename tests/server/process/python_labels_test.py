@@ -58,6 +58,15 @@ class LabelsTest(ServerTest):
             self.assertEqual(list(skeletons), [1, 2, 3], kind)
             self.assertEqual([s.summary.sha256 for s in skeletons.values()], digests, kind)
 
+    def test_what_is_no_label_is_refused_and_signed_integers_are_taken(self):
+        mask = image() == RING
+        for kind in (bool, "i2", ">i8"):
+            self.assertEqual(list(self.skeletons(mask.astype(kind))), [1], kind)
+        for wrong, error in ((mask.astype("f4"), TypeError), (-mask.astype("i2"), ValueError),
+                             (mask[0].astype("u1"), ValueError)):
+            with self.assertRaises(error):
+                self.skeletons(wrong)
+
     def test_listed_labels_and_a_least_size(self):
         self.assertEqual(list(self.skeletons(image(), labels=[BLOCK, 12, RING])), [RING, BLOCK])
         few = image()
