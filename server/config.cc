@@ -172,7 +172,8 @@ bool IsOpen(const std::string& address) { return !IsOfThisMachine(address); }
 // Checks that involve several settings, or the files that they name.
 absl::Status CheckTokens(const ServerConfig& config) {
   if (config.tokens.empty()) return absl::OkStatus();
-  absl::Status file = TokenTable::ReadFile(config.tokens).status();
+  const absl::Status table = TokenTable::ReadFile(config.tokens).status();
+  const absl::Status file(table.code(), absl::StrCat("--tokens: ", table.message()));
   if (!file.ok() || config.tls.enabled() || config.plaintext_tokens == "allow") return file;
   std::vector<std::string> addresses = config.listen;
   if (!config.admin_listen.empty()) addresses.push_back(config.admin_listen);
@@ -218,7 +219,8 @@ GivenValues FromFile(const CommandLine& line, const Variable& variable,
   if (path.empty()) return {};
   absl::StatusOr<GivenValues> file = ReadConfigFile(path);
   if (file.ok()) return *std::move(file);
-  resolver.problems.emplace_back(file.status().message());
+  const char* const given_by = flag != line.actions.end() ? "--config" : "BCCSKEL_CONFIG";
+  resolver.problems.push_back(absl::StrCat(given_by, ": ", file.status().message()));
   return {};
 }
 

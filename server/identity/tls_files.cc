@@ -15,9 +15,9 @@ namespace {
 
 using SslContext = std::unique_ptr<SSL_CTX, decltype(&SSL_CTX_free)>;
 
-absl::Status Bad(const std::string& path, const std::string& what) {
+absl::Status Bad(const char* flag, const std::string& path, const std::string& what) {
   ERR_clear_error();
-  return absl::InvalidArgumentError(absl::StrCat(path, ": ", what));
+  return absl::InvalidArgumentError(absl::StrCat(flag, ": ", path, ": ", what));
 }
 
 // Errors: INVALID_ARGUMENT if the file holds no certificates.
@@ -25,16 +25,16 @@ absl::StatusOr<SslContext> ContextOf(const std::string& certificate) {
   SslContext context(SSL_CTX_new(TLS_server_method()), SSL_CTX_free);
   if (context == nullptr) return absl::InternalError("OpenSSL cannot create a context");
   if (SSL_CTX_use_certificate_chain_file(context.get(), certificate.c_str()) == 1) return context;
-  return Bad(certificate, "cannot be read as a PEM certificate");
+  return Bad("--tls-cert", certificate, "cannot be read as a PEM certificate");
 }
 
 absl::Status CheckDates(SSL_CTX& context, const std::string& path) {
   const X509* const certificate = SSL_CTX_get0_certificate(&context);
   if (X509_cmp_current_time(X509_get0_notBefore(certificate)) > 0) {
-    return Bad(path, "the certificate is not valid yet");
+    return Bad("--tls-cert", path, "the certificate is not valid yet");
   }
   if (X509_cmp_current_time(X509_get0_notAfter(certificate)) < 0) {
-    return Bad(path, "the certificate has expired");
+    return Bad("--tls-cert", path, "the certificate has expired");
   }
   return absl::OkStatus();
 }
@@ -47,8 +47,9 @@ absl::Status CheckPair(SSL_CTX& context, const TlsFiles& files) {
     return absl::OkStatus();
   }
   const bool other_key = ERR_GET_LIB(ERR_peek_last_error()) == ERR_LIB_X509;
-  return Bad(files.key, other_key ? "is not the key of " + files.certificate
-                                  : "cannot be read as a PEM key without a password");
+  return Bad("--tls-key", files.key,
+             other_key ? "is not the key of " + files.certificate
+                       : "cannot be read as a PEM key without a password");
 }
 
 }  // namespace
@@ -62,7 +63,7 @@ absl::Status CheckTlsFiles(const TlsFiles& files) {
   BCCSKEL_RETURN_IF_ERROR(CheckPair(*context, files));
   if (!files.client_ca.empty() &&
       SSL_CTX_load_verify_file(context.get(), files.client_ca.c_str()) != 1) {
-    return Bad(files.client_ca, "cannot be read as PEM certificates");
+    return Bad("--tls-client-ca", files.client_ca, "cannot be read as PEM certificates");
   }
   return absl::OkStatus();
 }
@@ -72,7 +73,7 @@ absl::StatusOr<std::chrono::system_clock::time_point> CertificateEnd(const TlsFi
   std::tm end = {};
   const X509* const certificate = SSL_CTX_get0_certificate(context.get());
   if (ASN1_TIME_to_tm(X509_get0_notAfter(certificate), &end) != 1) {
-    return Bad(files.certificate, "does not state when it expires");
+    return Bad("--tls-cert", files.certificate, "does not state when it expires");
   }
   return std::chrono::system_clock::from_time_t(timegm(&end));
 }

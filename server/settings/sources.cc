@@ -1,6 +1,8 @@
 #include "server/settings/sources.h"
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <sstream>
 
@@ -102,7 +104,9 @@ GivenValues ReadEnvironment(const std::vector<Setting>& settings,
 
 absl::StatusOr<GivenValues> ReadConfigFile(const std::string& path) {
   std::ifstream file(path);
-  if (!file.is_open()) return absl::NotFoundError(path + ": cannot be read");
+  if (!file.is_open()) {
+    return absl::NotFoundError(absl::StrCat(path, ": cannot be read: ", std::strerror(errno)));
+  }
   GivenValues given;
   try {
     for (const CLI::ConfigItem& item : CLI::ConfigTOML().from_config(file)) {

@@ -97,7 +97,7 @@ class SettingsTest(unittest.TestCase):
                           "--data-dir: is empty: give a PATH or leave it out",
                           "thredas: there is no such setting",
                           "[store]: the file must hold no sections; write its settings above",
-                          "/no/such/file: cannot be read"):
+                          "--tokens: /no/such/file: cannot be read: No such file or directory"):
             self.assertIn(complaint, errors)
         self.assertEqual(len(errors.splitlines()), 7)
 
