@@ -140,7 +140,10 @@ absl::Status WithJobReason(const absl::Status& status) {
 
 absl::Status WithDiskReason(const absl::Status& status) {
   if (!absl::IsResourceExhausted(status) || ReasonOf(status).has_value()) return status;
-  return DiskFull("the server's disk is full", "disk");
+  return DiskFull(
+      "the server's disk is full: delete jobs and volumes that are no longer needed, or give the "
+      "server's data folder more space",
+      "disk");
 }
 
 absl::Status Prefixed(const std::string& what, const absl::Status& status) {
