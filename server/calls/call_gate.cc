@@ -47,8 +47,9 @@ std::string FullName(const Method& method) { return absl::StrCat("/bccskel.v1.",
 
 // The log's field for a name.
 std::string_view FieldOf(const std::string& name) {
-  if (name.compare(0, 8, "uploads/") == 0) return "upload";
-  return name.compare(0, 8, "volumes/") == 0 ? "volume" : "job";
+  if (name.starts_with("uploads/")) return "upload";
+  if (name.starts_with("volumes/")) return "volume";
+  return name.empty() || name.starts_with("jobs/") ? "job" : "name";
 }
 
 LogLevel LevelOf(const Method& method, const absl::Status& end) {

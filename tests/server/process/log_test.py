@@ -93,6 +93,14 @@ class JobLogTest(DurableTest):
         self.assertEqual([(line["level"], line["reason"]) for line in asked],
                          [("debug", ""), ("warning", "NOT_FOUND")])
 
+    def test_a_name_of_no_known_form_is_told_as_a_name(self):
+        server = self.start()
+        with self.assertRaises(grpc.RpcError):
+            self.create("nope")
+        self.assertEqual(server.stop(), 0)
+        line = lines_of(server, "call ended")[-1]
+        self.assertEqual((line["name"], line.get("job")), ("nope", None))
+
     def test_a_call_that_the_stop_cuts_off_is_told_as_draining(self):
         for data in ((), ("--data-dir", str(self.data))):
             with server_process.ServerProcess("--drain-ms", "0", *data) as server:
