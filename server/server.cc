@@ -8,6 +8,7 @@
 #include <thread>
 #include <utility>
 
+#include "absl/strings/str_cat.h"
 #include "bccskel/v1/admin_service.grpc.pb.h"
 #include "bccskel/v1/job_service.grpc.pb.h"
 #include "bccskel/v1/server_service.grpc.pb.h"
@@ -17,6 +18,7 @@
 #include "core/pipeline/algorithm_version.h"
 #include "core/version/version.h"
 #include "proto/wire/duration.h"
+#include "server/admission/memory_estimate.h"
 #include "server/calls/call_gate.h"
 #include "server/calls/durable_messages.h"
 #include "server/calls/message_codec.h"
@@ -63,6 +65,26 @@ void LogJobState(const JobRow& job) {
        {"message", std::string(error.message())},
        {"seconds", std::chrono::duration<double>(since_created).count()},
        {"traceparent", job.trace}});
+}
+
+// A limit below which no volume, however small, can be computed or kept.
+void WarnOf(const char* setting, uint64_t limit, uint64_t least) {
+  if (limit >= least) return;
+  Log(LogLevel::kWarning, "limit too small",
+      {{"message", absl::StrCat(setting, " is ", limit, ": no job can run with less than ", least,
+                                " bytes")}});
+}
+
+void WarnOfLimits(const ServerConfig& config) {
+  // Less than the summary of any result takes, beside its volume.
+  constexpr uint64_t kLeastDiskBytes = 256;
+  WarnOf("max-memory-bytes", config.limits.max_bytes, kFixedJobBytes + kPipelineBytesPerBrick);
+  if (config.durable.data_directory.empty()) return;
+  const DurableOptions& durable = config.durable;
+  if (durable.max_disk_bytes > 0) WarnOf("max-disk-bytes", durable.max_disk_bytes, kLeastDiskBytes);
+  if (durable.max_tenant_disk_bytes > 0) {
+    WarnOf("max-tenant-disk-bytes", durable.max_tenant_disk_bytes, kLeastDiskBytes);
+  }
 }
 
 // A network reaches neither reflection nor admin calls unless configured so.
@@ -186,6 +208,7 @@ absl::StatusOr<std::unique_ptr<Server>> Server::Start(const ServerConfig& config
   BCCSKEL_RETURN_IF_ERROR(server->Listen());
   BCCSKEL_RETURN_IF_ERROR(server->ListenForAdmins());
   BCCSKEL_RETURN_IF_ERROR(server->ShowMetrics());
+  WarnOfLimits(config);
   return server;
 }
 

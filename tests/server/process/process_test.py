@@ -99,6 +99,16 @@ class FlagsTest(unittest.TestCase):
             self.assertEqual(server.stop(), 0)
             self.assertEqual(server.log_text(), "")
 
+    def test_a_limit_that_leaves_room_for_no_job_is_told(self):
+        with tempfile.TemporaryDirectory() as data, ServerProcess(
+                "--data-dir", data, "--max-memory-bytes", "1", "--max-disk-bytes", "10") as server:
+            self.assertEqual(server.stop(), 0)
+            for limit in ("max-memory-bytes is 1:", "max-disk-bytes is 10:"):
+                self.assertIn(limit, server.log_text())
+        with ServerProcess() as server:
+            self.assertEqual(server.stop(), 0)
+            self.assertNotIn("limit too small", server.log_text())
+
 
 class SignalTest(unittest.TestCase):
     def test_sigterm_and_sigint_end_an_idle_server_well(self):
