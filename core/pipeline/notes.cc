@@ -26,6 +26,12 @@ std::string Counted(int64_t count, const char* one, const char* many) {
   return absl::StrFormat("%d %s", count, count == 1 ? one : many);
 }
 
+// To three digits.
+double RoundedUp(double length) {
+  const double digit = std::pow(10, std::floor(std::log10(length)) - 2);
+  return std::ceil(length / digit - 1e-6) * digit;
+}
+
 void AddCavities(const SkeletonizeResult& result, Notes& notes) {
   const int64_t cavities = result.certificate.input.cavities;
   if (cavities == 0 || !MakesCurves(result.options.thinning.kind)) return;
@@ -65,7 +71,7 @@ void AddNarrowLoops(const SkeletonizeResult& result, Notes& notes) {
   }
   notes.push_back(what + absl::StrFormat(", as noise produces them; --cut-loops %g closes such "
                                          "tunnels before thinning",
-                                         width));
+                                         RoundedUp(width)));
 }
 
 // The lattice points of a voxel, and of a row of voxels for each more. Those on its faces count,

@@ -125,36 +125,50 @@ TEST(Barrier, ShowsAfterAwaitingWhatOthersWroteBeforeTheyArrived) {
 }
 
 #if defined(__linux__)
-// How long worker 0 of two was blocked, as the barrier says, by a worker that does `theirs` first.
+// How long worker 0 of two was blocked, as the barrier says, by a worker that does `theirs` first,
+// and how long that worker's processor ran other work meanwhile.
+struct Blocked {
+  Barrier::Duration time = {}, other_work = {};
+};
+
 template <typename Theirs>
-Barrier::Duration BlockedBy(Theirs theirs) {
+Blocked BlockedBy(Theirs theirs) {
   WorkerTeam team(2);
   Barrier barrier(2);
-  Barrier::Duration blocked = {};
+  Blocked blocked;
   team.Run([&](int worker) {
     barrier.Guard(worker, [&] {
       barrier.Wait(worker);
-      if (worker == 1) theirs();
+      const auto start = std::chrono::steady_clock::now();
+      if (worker == 1) blocked.other_work -= theirs();
       barrier.Arrive(worker);
-      if (worker == 0) blocked = barrier.Await(worker);
+      if (worker == 0) blocked.time = barrier.Await(worker);
+      if (worker == 1) blocked.other_work += std::chrono::steady_clock::now() - start;
     });
   });
   return blocked;
 }
 
-// Each is tried again, since on a busy machine any worker may be kept from running at any time.
+std::chrono::nanoseconds TimeOfThread() {
+  timespec time = {};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
+}
+
 TEST(Barrier, IsBlockedByAWorkerThatDoesNotRunAndNotByOneThatHasMoreToDo) {
-  using std::chrono::milliseconds;
-  const auto works = [] {
-    const std::clock_t end = std::clock() + CLOCKS_PER_SEC / 20;
-    while (std::clock() < end) {
+  constexpr std::chrono::milliseconds kTime(50);
+  const Blocked by_work = BlockedBy([&] {
+    const auto end = TimeOfThread() + kTime;
+    while (TimeOfThread() < end) {
     }
-  };
-  const auto sleeps = [] { std::this_thread::sleep_for(milliseconds(50)); };
-  const std::vector turns = {1, 2, 3, 4, 5};
-  EXPECT_TRUE(std::ranges::any_of(turns, [&](int) { return BlockedBy(works) < milliseconds(25); }));
-  EXPECT_TRUE(
-      std::ranges::any_of(turns, [&](int) { return BlockedBy(sleeps) > milliseconds(25); }));
+    return kTime;
+  });
+  EXPECT_LT(by_work.time, by_work.other_work + kTime / 2);
+  const Blocked by_sleep = BlockedBy([&] {
+    std::this_thread::sleep_for(kTime);
+    return kTime;
+  });
+  EXPECT_GT(by_sleep.time, kTime / 2);
 }
 #endif
 

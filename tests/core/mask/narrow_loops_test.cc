@@ -129,6 +129,11 @@ TEST(NarrowLoops, AreNotedWithTheOptionThatClosesThem) {
   EXPECT_THAT(NotesOn(closed), ElementsAre(HasSubstr("loops 3 -> 1")));
 }
 
+TEST(NarrowLoops, AreNotedWithFewDigits) {
+  EXPECT_THAT(NotesOn(BarWithHoles({1, 5}, 0.1762174)),
+              ElementsAre(HasSubstr("--cut-loops 0.353 closes")));
+}
+
 TEST(NarrowLoops, AreClosedByWidthsInVoxelsForAnyNumberOfPointsPerVoxel) {
   for (const VoxelPoints points : {VoxelPoints::kTwo, VoxelPoints::kSixteen}) {
     const SkeletonizeResult result = BarWithHoles({1, 3, 5}, 8, {.tunnel_cells = 4}, false, points);
