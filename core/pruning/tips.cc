@@ -120,15 +120,15 @@ class TipPlacer {
     FindRoot(branch);
   }
 
-  // Whether the object is wide across the rib, at the end of a limb that is not.
+  // Whether the object is wide across the rib, at the end of a limb that is not, and no noise.
   bool LiesInDisc(std::span<const LatticePoint> rib, const FreeBranch& branch) {
-    const LatticePoint fork = branch.points[rib.size()];
-    const auto limb = std::span(branch.points).subspan(rib.size());
-    const auto before = std::ranges::find_if(limb, [&](LatticePoint p) {
-      return set_.Between(p, fork) >= kBeforeDisc * set_.RadiusOf(fork);
-    });
-    return before != limb.end() && WidthAt(*before, set_.Way(*before, fork)) <= kRound &&
-           WidthAt(rib[rib.size() / 2], set_.Way(fork, rib[0])) >= kWide;
+    const auto limb = std::span(branch.points).subspan(rib.size());  // from the fork
+    const double radius = set_.RadiusOf(limb[0]);
+    if (set_.Between(limb[0], rib[0]) < radius + noise_.At(radius)) return false;
+    const auto before = std::ranges::find_if(
+        limb, [&](LatticePoint p) { return set_.Between(p, limb[0]) >= kBeforeDisc * radius; });
+    return before != limb.end() && WidthAt(*before, set_.Way(*before, limb[0])) <= kRound &&
+           WidthAt(rib[rib.size() / 2], set_.Way(limb[0], rib[0])) >= kWide;
   }
 
   // The half-width across a direction, in radii.
