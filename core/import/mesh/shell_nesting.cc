@@ -49,8 +49,8 @@ std::vector<Query> PlaceQueries(const Surface& surface) {
   for (uint32_t component = 0; component < extremes.size(); ++component) {
     std::array<uint32_t, 6>& vertices = extremes[component];
     std::ranges::sort(vertices);
-    const auto repeated = std::ranges::unique(vertices);
-    for (auto v = vertices.begin(); v != repeated.begin(); ++v) {
+    const auto end = std::unique(vertices.begin(), vertices.end());
+    for (auto v = vertices.begin(); v != end; ++v) {
       queries.push_back({Snap(surface.vertices[*v]), component});
     }
   }
