@@ -4,10 +4,12 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string_view>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "client/view/first_view.h"
 #include "client/view/packed_numbers.h"
 #include "client/view/page_parts.h"
 #include "client/view/pruning_steps.h"
@@ -98,6 +100,26 @@ absl::StatusOr<OrderedJson> SheetsJson(const SheetSurface& sheets, const Quantiz
   return json;
 }
 
+Front FrontOf(const PageContent& content) {
+  if (!content.peeling.layers.empty()) {
+    return FrontOf(content.result, content.peeling.layers.front().surface.vertices);
+  }
+  std::vector<WorldPoint> points = content.result.sheets.points;
+  for (const ResultDocument::Edge& edge : content.result.edges) {
+    points.insert(points.end(), edge.points.begin(), edge.points.end());
+  }
+  return FrontOf(view::BoxOf(points), points, std::nullopt);  // a flat curve is no slice
+}
+
+OrderedJson FrontJson(const PageContent& content) {
+  const auto [view, turn, climb] = FrontOf(content);
+  return {{"right", view.right},
+          {"up", view.up},
+          {"toward", view.toward},
+          {"turn", turn},
+          {"climb", climb}};
+}
+
 absl::StatusOr<OrderedJson> DataOf(const PageContent& content) {
   const Quantizer quantize = QuantizerFor(BoxOf(content));
   OrderedJson data = {{"title", content.title},
@@ -111,6 +133,7 @@ absl::StatusOr<OrderedJson> DataOf(const PageContent& content) {
     surface["shells"] = layer.shells;
     data["layers"].push_back(std::move(surface));
   }
+  data["front"] = FrontJson(content);
   const SheetSurface sheets = SheetSurfaceOf(content.result);
   BCCSKEL_ASSIGN_OR_RETURN(data["sheets"], SheetsJson(sheets, quantize));
   return data;

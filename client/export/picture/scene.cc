@@ -8,7 +8,7 @@
 namespace bccskel::exporting {
 namespace {
 
-void Include(WorldBox& box, const WorldPoint& p, double pad) {
+void Include(view::WorldBox& box, const WorldPoint& p, double pad) {
   for (size_t axis = 0; axis < 3; ++axis) {
     box.low[axis] = std::min(box.low[axis], p[axis] - pad);
     box.high[axis] = std::max(box.high[axis], p[axis] + pad);

@@ -13,7 +13,7 @@ namespace bccskel::exporting {
 // The contents of all views of a picture.
 struct Scene {
   std::vector<WorldPoint> surface;  // at least one point
-  WorldBox box;                     // around the surface, larger by half a step along z
+  view::WorldBox box;               // around the surface, larger by half a step along z
   double point_spacing;  // distance of D8 neighbors in world units, by the largest spacing
   std::vector<DisplayCurve> curves;
   RadiusRange radii;

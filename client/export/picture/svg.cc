@@ -233,11 +233,11 @@ void AddHead(Text& svg, const Subject& subject) {
           SkeletonPhrase(subject.result), "</text>\n");
 }
 
-std::optional<SliceFacts> SliceFactsOf(const Subject& subject) {
+std::optional<view::SliceFacts> SliceFactsOf(const Subject& subject) {
   const SkeletonizeOptions& options = subject.result.options;
   if (options.source != ObjectSource::kVoxels) return std::nullopt;
-  return SliceFacts{subject.object.placement().spacing[2], options.voxel_slabs[2],
-                    subject.world.axes};
+  return view::SliceFacts{subject.object.placement().spacing[2], options.voxel_slabs[2],
+                          subject.world.axes};
 }
 
 }  // namespace
@@ -245,7 +245,7 @@ std::optional<SliceFacts> SliceFactsOf(const Subject& subject) {
 absl::StatusOr<std::string> SvgText(const Subject& subject) {
   const Scene scene = SceneOf(subject);
   const std::array<View, 3> views =
-      ViewsOf(FrontOf(scene.box, scene.surface, SliceFactsOf(subject)));
+      view::ViewsOf(view::FrontOf(scene.box, scene.surface, SliceFactsOf(subject)));
   Text svg;
   AddHead(svg, subject);
   for (size_t n = 0; n < kPanels.size(); ++n) {

@@ -2,8 +2,10 @@
 
 // `turn` around `target` and `climb` above it (radians), at a distance in edges of the scene.
 const view = { turn: 0, climb: 0, distance: 1, target: new THREE.Vector3(), flat: false };
-const first = { turn: 0.52, climb: 0.26 };  // of three quarters
-const upright = new THREE.Quaternion();  // from the frame of `turn` and `climb`
+const first = { turn: THREE.Math.degToRad(data.front.turn), climb: THREE.Math.degToRad(data.front.climb) };
+// From the frame of `turn` and `climb`.
+const upright = new THREE.Quaternion().setFromRotationMatrix(new THREE.Matrix4().makeBasis(
+  ...[data.front.right, data.front.up, data.front.toward].map((v) => new THREE.Vector3(...v))));
 const wholeBox = new THREE.Box3();
 const kHalfField = Math.tan(16 * Math.PI / 180);
 const halfHeight = () => view.distance * kHalfField;
@@ -30,62 +32,6 @@ function placeCamera() {
   camera.projectionMatrixInverse.getInverse(camera.projectionMatrix);
 }
 
-// Whether an object of an image is one slice thick; see client/export/picture/projection.h.
-function isSlice({ x, y, z }) {
-  const { source, voxel_slabs: slabs } = result.options ?? {};
-  if (source !== "voxels" || !result.placement || !layers.length || z > Math.min(x, y)) return false;
-  const slice = (Number((slabs ?? "1").split(",").pop()) + 1.5) * result.placement.spacing[2] / edge;
-  return z <= Math.max(slice, 0.02 * Math.min(x, y));
-}
-// The square of the area that the points fill from there, but for a factor.
-function squaredAreaFrom(turn, places) {
-  const toCamera = cameraTurn(turn, first.climb).inverse(), p = new THREE.Vector3();
-  const middle = wholeBox.getCenter(new THREE.Vector3());
-  const step = 3 * Math.ceil(places.length / 60000);  // some thousands suffice
-  let [count, x, y, xx, xy, yy] = [0, 0, 0, 0, 0, 0];
-  for (let n = 0; n < places.length; n += step) {
-    p.fromArray(places, n).sub(middle).applyQuaternion(toCamera);
-    count += 1;
-    x += p.x;
-    y += p.y;
-    xx += p.x ** 2;
-    xy += p.x * p.y;
-    yy += p.y ** 2;
-  }
-  const variance = (square, a, b) => square / count - a * b / count ** 2;
-  return variance(xx, x, x) * variance(yy, y, y) - variance(xy, x, y) ** 2;
-}
-// A three-quarter view on the broadest side, up is +y, or +z when y is the thinnest axis; or a
-// straight view on a slice. `places`: coordinates of the surface.
-function startView(box, places) {
-  wholeBox.copy(box);
-  const size = box.getSize(new THREE.Vector3());
-  const setSide = (toward, up) => upright.setFromRotationMatrix(new THREE.Matrix4().makeBasis(
-    new THREE.Vector3().crossVectors(up, toward), up, toward));
-  const vector = (...numbers) => new THREE.Vector3(...numbers);
-  const sides = [[vector(0, 0, 1), vector(0, 1, 0)], [vector(1, 0, 0), vector(0, 1, 0)],
-    [vector(0, -1, 0), vector(0, 0, 1)]];  // across z, x and y
-  const broadest = size.z <= size.x && size.z <= size.y ? 0 : size.x <= size.y ? 1 : 2;
-  if (isSlice(size)) {
-    Object.assign(first, { turn: 0, climb: 0 });
-    setSide(...result.world?.[1] === "A" ? sides[0] : [vector(0, 0, -1), vector(0, -1, 0)]);
-  } else {
-    // A flat object that lies obliquely in its box might show its edge.
-    const area = ({ side, turn }) => {
-      setSide(...sides[side]);
-      return squaredAreaFrom(turn, places);
-    };
-    let best = { side: broadest, turn: first.turn }, most = 2 * area(best);
-    for (const other of [0, 1, 2].flatMap((side) => [1, -1].map(
-      (sign) => ({ side, turn: sign * first.turn })))) {
-      const here = area(other);
-      if (here > most) [best, most] = [other, here];
-    }
-    setSide(...sides[best.side]);
-    first.turn = best.turn;
-  }
-  Object.assign(view, wholeView());
-}
 // From the initial side, as near as possible with the whole object in view.
 function wholeView() {
   const { turn, climb } = first, target = wholeBox.getCenter(new THREE.Vector3());

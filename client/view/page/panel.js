@@ -247,7 +247,8 @@ async function start() {
   if (data.layers.length) layers = [await surfaceGeometry(data.layers[0])];
   const box = boxOfAll();
   prepareCut(box);
-  startView(box, layers.length ? layers[0].attributes.position.array : curvePoints);
+  wholeBox.copy(box);
+  Object.assign(view, wholeView());
   dress(systemTheme());
   prune();
   listen();

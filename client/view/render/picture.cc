@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <charconv>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -32,21 +31,6 @@ double FontSize(const PictureOptions& options) {
   return std::max(11.0, std::min(options.width, options.height) / 56.0);
 }
 
-std::string_view OptionOf(const ResultDocument& result, std::string_view name) {
-  const auto option =
-      std::ranges::find(result.options, name, [](const auto& o) { return o.first; });
-  return option == result.options.end() ? std::string_view() : option->second;
-}
-
-std::optional<exporting::SliceFacts> SliceFactsOf(const ResultDocument& result) {
-  if (OptionOf(result, "source") != "voxels" || !result.placement.has_value()) return std::nullopt;
-  const std::string_view slabs = OptionOf(result, "voxel_slabs");  // x,y,z
-  int z = 1;
-  const size_t comma = slabs.rfind(',') + 1;
-  std::from_chars(slabs.data() + comma, slabs.data() + slabs.size(), z);
-  return exporting::SliceFacts{result.placement->spacing[2], z, result.world};
-}
-
 exporting::Projection ProjectionOf(const ResultDocument& result, const DisplaySurface& surface,
                                    const PictureOptions& options) {
   constexpr WorldPoint kOrigin = {0, 0, 0};
@@ -54,12 +38,10 @@ exporting::Projection ProjectionOf(const ResultDocument& result, const DisplaySu
                                         ? std::span<const WorldPoint>(&kOrigin, 1)
                                         : std::span<const WorldPoint>(surface.vertices),
                                     1e-9};
-  const exporting::Front front =
-      exporting::FrontOf(exporting::BoxOf(shown.centers), shown.centers, SliceFactsOf(result));
+  const Front front = FrontOf(result, shown.centers);
   const double words = (kWordsAbove + kWordsBelow) * FontSize(options);
   return exporting::Projection(
-      exporting::ViewFrom(front.view, options.turn.value_or(front.turn),
-                          options.climb.value_or(front.climb)),
+      ViewFrom(front.view, options.turn.value_or(front.turn), options.climb.value_or(front.climb)),
       shown,
       {static_cast<double>(kSamplesPerPixel * options.width),
        kSamplesPerPixel * std::max(options.height - words, options.height / 2.0)},
@@ -69,7 +51,7 @@ exporting::Projection ProjectionOf(const ResultDocument& result, const DisplaySu
 // Many curves must be thinner to stay distinguishable; as in page/skeleton.js.
 double ThinnedBy(const ResultDocument& result, const DisplaySurface& surface) {
   if (surface.vertices.empty()) return 1;
-  const auto [low, high] = exporting::BoxOf(surface.vertices);
+  const auto [low, high] = BoxOf(surface.vertices);
   double edge = 0, length = 0;
   for (size_t axis = 0; axis < 3; ++axis) edge = std::max(edge, high[axis] - low[axis]);
   for (const ResultDocument::Edge& e : result.edges) length += e.length;

@@ -15,8 +15,8 @@ namespace bccskel::view {
 struct PictureOptions {
   int width = 1200;  // pixels
   int height = 900;
-  // Degrees around the object to the right of its front, exporting::FrontOf(), and up; none: those
-  // of the front.
+  // Degrees around the object to the right of its front, FrontOf(), and up; none: those of the
+  // front.
   std::optional<double> turn;
   std::optional<double> climb;
   std::string title;  // omitted if it is not UTF-8

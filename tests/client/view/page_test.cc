@@ -49,6 +49,14 @@ TEST(PageTest, CarriesTheLicenseOfThreeJs) {
   EXPECT_THAT(page, HasSubstr("THE SOFTWARE IS PROVIDED \"AS IS\""));
 }
 
+TEST(PageTest, OpensWithTheViewThatPicturesHave) {
+  exporting::Sample sample = exporting::SampleOf(Shape::kTorus);
+  EXPECT_THAT(PageFor(sample, ""), HasSubstr("\"turn\":30.0,\"climb\":15.0"));
+  sample.result.options.source = ObjectSource::kVoxels;
+  sample.result.options.voxel_slabs = {1, 1, 1000};  // the object is one slice
+  EXPECT_THAT(PageFor(sample, ""), HasSubstr("\"turn\":0.0,\"climb\":0.0"));
+}
+
 TEST(PageTest, NoTitleAndNoResultEndsItsScript) {
   exporting::Sample sample = exporting::SampleOf(Shape::kTorus);
   sample.result.sha256 = "</script><b>";
