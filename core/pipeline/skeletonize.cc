@@ -10,6 +10,7 @@
 #include "core/pipeline/method_in_words.h"
 #include "core/pipeline/skeletonize_within.h"
 #include "core/prepare/beyond_border.h"
+#include "core/prepare/border_cuts.h"
 #include "core/pruning/point_table.h"
 #include "core/pruning/sheet_pruner.h"
 #include "core/skeleton/center_curves.h"
@@ -97,7 +98,8 @@ class Pipeline {
         memory_(memory),
         context_(context),
         on_points_(on_points),
-        peeler_(peeler) {
+        peeler_(peeler),
+        thinning_(options.thinning) {
     result_.options = CanonicalOptions(options);
     result_.options.thinning.keep.clear();
     result_.certificate.sampled = options.source == ObjectSource::kSampledVoxels;
@@ -178,7 +180,7 @@ class Pipeline {
 
   // A peeler does not return distances, so radii are searched for.
   absl::Status PeelAndRun(Volume& object) {
-    BCCSKEL_ASSIGN_OR_RETURN(PeeledObject peeled, (*peeler_)(object, options_.thinning));
+    BCCSKEL_ASSIGN_OR_RETURN(PeeledObject peeled, (*peeler_)(object, thinning_));
     TakeOver(std::move(peeled.thinned));
     result_.object_points = peeled.points;
     result_.certificate.input = peeled.topology;
@@ -193,9 +195,8 @@ class Pipeline {
       BCCSKEL_ASSIGN_OR_RETURN(result_.certificate.input, CountBettiNumbers(object, context_));
     }
     BCCSKEL_RETURN_IF_ERROR(Certify(skeleton_.points, context_, result_.certificate));
-    result_.certificate.simple_points_left =
-        CountSimplePoints(skeleton_.points, ThatMayGo(options_),
-                          SparedPoints(skeleton_, options_.thinning), context_);
+    result_.certificate.simple_points_left = CountSimplePoints(
+        skeleton_.points, ThatMayGo(options_), SparedPoints(skeleton_, thinning_), context_);
     result_.timings.certificate = clock_.Lap();
     const std::vector<float> exact = skeleton_.radii;
     BCCSKEL_ASSIGN_OR_RETURN(skeleton_.radii, StatedRadii(SpaceOf(object), exact));
@@ -238,7 +239,7 @@ class Pipeline {
   // Shells are made while chamfer distances are measured; shells and depths while Euclidean
   // distances are.
   bool NeedsField() const {
-    const bool depths = DepthsOf(options_.thinning.method) == Depths::kWanted;
+    const bool depths = DepthsOf(thinning_.method) == Depths::kWanted;
     return space_.has_value() || (depths && options_.distance != DistanceKind::kEuclidean);
   }
 
@@ -256,9 +257,13 @@ class Pipeline {
 
   absl::Status ThinInField(const Volume& object, DistanceField& distance) {
     BCCSKEL_ASSIGN_OR_RETURN(distance, MeasureDistances(object, options_.distance));
+    if (options_.border == Border::kContinues && HasCurves(thinning_)) {
+      cuts_ = FindBorderCuts(SpaceOf(object), object, distance);
+      thinning_.keep.insert(thinning_.keep.end(), cuts_.middles.begin(), cuts_.middles.end());
+    }
     result_.timings.distance = clock_.Lap();
     BCCSKEL_ASSIGN_OR_RETURN(ThinningResult thinned,
-                             ThinObject(object, distance, options_.thinning, context_, on_points_));
+                             ThinObject(object, distance, thinning_, context_, on_points_));
     TakeOver(std::move(thinned));
     return absl::OkStatus();
   }
@@ -266,9 +271,9 @@ class Pipeline {
   absl::Status ThinInShells(const Volume& object, DistanceField& distance) {
     BCCSKEL_ASSIGN_OR_RETURN(const EuclideanShells measured, MeasureShells(object, distance));
     result_.timings.distance = clock_.Lap();
-    BCCSKEL_ASSIGN_OR_RETURN(ThinningResult thinned,
-                             ThinByShells(object, measured.shells, measured.depths,
-                                          options_.thinning, context_, on_points_));
+    BCCSKEL_ASSIGN_OR_RETURN(
+        ThinningResult thinned,
+        ThinByShells(object, measured.shells, measured.depths, thinning_, context_, on_points_));
     TakeOver(std::move(thinned));
     return absl::OkStatus();
   }
@@ -276,21 +281,19 @@ class Pipeline {
   absl::StatusOr<EuclideanShells> MeasureShells(const Volume& object, DistanceField& distance) {
     EuclideanShells measured;
     if (options_.distance != DistanceKind::kEuclidean) {
-      BCCSKEL_ASSIGN_OR_RETURN(
-          measured.shells,
-          StreamShells(object, options_.distance, options_.thinning.shell_width, context_));
+      BCCSKEL_ASSIGN_OR_RETURN(measured.shells, StreamShells(object, options_.distance,
+                                                             thinning_.shell_width, context_));
       return measured;
     }
-    BCCSKEL_ASSIGN_OR_RETURN(measured,
-                             StreamEuclideanShells(object, options_.thinning.shell_width,
-                                                   DepthsOf(options_.thinning.method), context_));
+    BCCSKEL_ASSIGN_OR_RETURN(measured, StreamEuclideanShells(object, thinning_.shell_width,
+                                                             DepthsOf(thinning_.method), context_));
     distance = measured.distance.has_value() ? *std::exchange(measured.distance, {})
                                              : NoDistances(DistanceKind::kChamfer);
     return measured;
   }
 
   void TakeOver(ThinningResult thinned) {
-    const SkeletonKind kind = options_.thinning.kind;
+    const SkeletonKind kind = thinning_.kind;
     if (kind == SkeletonKind::kSurface || kind == SkeletonKind::kIsthmusCurve) {
       skeleton_.births = BirthsOf(thinned);
     }
@@ -317,19 +320,19 @@ class Pipeline {
     if (IsConverted(options_.source) && !space_.has_value()) {
       search_.emplace(radius.searches() ? radius : ExactRadius(object));
     }
-    if (HasCurves(options_.thinning)) {
+    if (HasCurves(thinning_)) {
       const ExactRadius& single = search_.has_value() ? *search_ : radius;
       BCCSKEL_ASSIGN_OR_RETURN(ThinSkeleton pruned,
                                Prune(skeleton_,
                                      {object, single, SurfaceStepOf(options_.source),
-                                      options_.voxel_slabs, &SpaceOf(object)},
+                                      options_.voxel_slabs, &SpaceOf(object), &cuts_},
                                      options_.thinning.keep, options_.pruning, context_));
       TakeOver(std::move(pruned));
     }
     const PruningOptions& pruning = result_.options.pruning;
-    if (HasSheets(options_.thinning) && pruning.rule != PruningRule::kNone) {
-      BCCSKEL_ASSIGN_OR_RETURN(ThinSkeleton pruned, PruneSheets(skeleton_, pruning.threshold,
-                                                                options_.thinning.keep, context_));
+    if (HasSheets(thinning_) && pruning.rule != PruningRule::kNone) {
+      BCCSKEL_ASSIGN_OR_RETURN(ThinSkeleton pruned,
+                               PruneSheets(skeleton_, pruning.threshold, thinning_.keep, context_));
       TakeOver(std::move(pruned));
     }
     result_.skeleton_points = skeleton_.points.PointCount();
@@ -352,6 +355,8 @@ class Pipeline {
   exec::StageClock clock_;
   ThinSkeleton skeleton_;
   std::optional<Volume> space_;  // the object in a window, where it continues beyond the border
+  BorderCuts cuts_;              // of limbs, at that border
+  ThinningOptions thinning_;     // keeps the middles of these cuts, too
   std::optional<ExactRadius> search_;  // where radii of voxels are measured
   SkeletonizeResult result_;
 };

@@ -125,7 +125,8 @@ Significance SignificanceIn(const Volume& space, const ExactRadius& radius, cons
   } else if (noise.roughness > 0) {
     firm_depth.emplace(space, radius);
   }
-  return Significance(in.object, noise, std::move(extender), std::move(firm_depth), space.window());
+  return Significance(in.object, noise, std::move(extender), std::move(firm_depth), space.window(),
+                      in.cuts);
 }
 
 }  // namespace
@@ -182,10 +183,12 @@ absl::StatusOr<ThinSkeleton> Prune(const ThinSkeleton& curves, const PrunedObjec
     levels = PruningLevelsOf(std::move(before_tips), significance, RuleOfLevels(options, curves),
                              kept, own);
   };
+  PointSet stay = kept;
+  if (in.cuts != nullptr) stay.insert(in.cuts->middles.begin(), in.cuts->middles.end());
   absl::Status placed;
   const auto place_tips = [&](const exec::Context& own) {
     if (!depths.has_value()) return;
-    placed = PlaceTips(set, in.object, in.radius, *depths, kept, noise, turned, own);
+    placed = PlaceTips(set, in.object, in.radius, *depths, stay, noise, turned, own);
   };
   RunBoth(find_levels, place_tips, context.WorkersFor(set.Ends().size(), Significance::kWork),
           context);

@@ -9,6 +9,7 @@
 #include "core/distance/exact_radius.h"
 #include "core/exec/context.h"
 #include "core/lattice/lattice_point.h"
+#include "core/prepare/border_cuts.h"
 #include "core/skeleton/thin_skeleton.h"
 #include "core/volume/volume.h"
 
@@ -61,6 +62,7 @@ struct PrunedObject {
   // measured in `object`, so that they end where the object is cut off: otherwise a thin stack
   // would seem wide beyond its faces.
   const Volume* space = nullptr;
+  const BorderCuts* cuts = nullptr;  // their middles are points to keep; null: none
 };
 
 // Removes spurious branches and places the tips of the others. Points are removed and added one by

@@ -63,19 +63,23 @@ double MedianFrom(std::array<double, Significance::kPlaces> values, size_t place
   return *middle;
 }
 
+constexpr double kNone = -std::numeric_limits<double>::infinity();
+
 }  // namespace
 
 Significance::Significance(const Volume& object, const SurfaceNoise& noise,
                            std::optional<TipExtender> extender, std::optional<FirmDepth> firm_depth,
-                           const std::optional<LatticeBox>& border)
+                           const std::optional<LatticeBox>& border, const BorderCuts* cuts)
     : noise_(noise),
       scale_(AxisScaleOf(object.placement())),
       sections_(object),
       extender_(std::move(extender)),
       firm_depth_(std::move(firm_depth)),
-      border_(border) {}
+      border_(border),
+      cuts_(cuts) {}
 
 double Significance::Of(const ThinSet& set, const FreeBranch& branch) {
+  if (LeadsBesideCut(set, branch)) return kNone;
   const Verdict* last = Known(branch);
   if (last == nullptr) {
     verdicts_.Set(branch.points[0], Look(set, branch));
@@ -86,10 +90,18 @@ double Significance::Of(const ThinSet& set, const FreeBranch& branch) {
   return value < kSureRatio ? std::max(value, OfBodyEnd(set, branch, value)) : value;
 }
 
+// Where the border cuts a flat limb off, branches lead into the corners of the cut.
+bool Significance::LeadsBesideCut(const ThinSet& set, const FreeBranch& branch) const {
+  if (cuts_ == nullptr) return false;
+  const LatticePoint end = branch.points[0];
+  const auto middle = cuts_->MiddleBeside(end, set.RadiusOf(end) + 1);
+  return middle.has_value() && set.Contains(*middle) &&
+         std::ranges::find(branch.points, *middle) == branch.points.end();
+}
+
 // A body that narrows falls short of a run: its radius falls twice as fast as along a limb. Limbs
 // that leave it show that its end is not just a corner, of which several would meet.
 double Significance::OfBodyEnd(const ThinSet& set, const FreeBranch& branch, double least) {
-  constexpr double kNone = -std::numeric_limits<double>::infinity();
   const LatticePoint junction = *branch.junction;
   const double radius = set.RadiusOf(junction);
   if (!MayHaveBodyEnds(radius)) return kNone;

@@ -10,6 +10,7 @@
 
 #include "core/distance/places.h"
 #include "core/exec/context.h"
+#include "core/prepare/border_cuts.h"
 #include "core/pruning/ball_index.h"
 #include "core/pruning/branch_walk.h"
 #include "core/pruning/cross_section.h"
@@ -51,11 +52,13 @@ class Significance {
   //        extends branches beyond the end that thinning gave them; none: they end there.
   //        `firm_depth`, of the same object, measures radii without pits, in proportion to the
   //        roughness of the surface; none: radii as they are. `border`: of the image; limbs that it
-  //        cuts off are extended.
+  //        cuts off are extended. `cuts`: those whose middles are ends; it outlives this; null:
+  //        none.
   Significance(const Volume& object, const SurfaceNoise& noise,
                std::optional<TipExtender> extender = std::nullopt,
                std::optional<FirmDepth> firm_depth = std::nullopt,
-               const std::optional<LatticeBox>& border = std::nullopt);
+               const std::optional<LatticeBox>& border = std::nullopt,
+               const BorderCuts* cuts = nullptr);
 
   // The significance of a branch.
   // Needs: the branch belongs to `set`, whose points are points of the object, and has a junction.
@@ -65,6 +68,7 @@ class Significance {
   // it sticks out of the ball at its junction, relative to that ball's radius and the width, as
   // above. -infinity if the branch is not the end of a body, the ball is too small, or the value is
   // at most `least` or 0.2. Needs: as Of().
+  bool LeadsBesideCut(const ThinSet& set, const FreeBranch& branch) const;
   double OfBodyEnd(const ThinSet& set, const FreeBranch& branch,
                    double least = -std::numeric_limits<double>::infinity());
   // Whether a ball of this radius at a junction is large enough, compared with the noise.
@@ -133,6 +137,7 @@ class Significance {
   std::optional<TipExtender> extender_;
   std::optional<FirmDepth> firm_depth_;
   const std::optional<LatticeBox> border_;
+  const BorderCuts* const cuts_;
   std::optional<BallIndex> balls_;  // created on first use
   PointTable<Verdict> verdicts_;    // by the end of the branch
 };

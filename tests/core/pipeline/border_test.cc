@@ -69,6 +69,56 @@ TEST(Border, ARodThatIsCutOffRunsStraightToIt) {
   }
 }
 
+// Ellipses and bars across the same way: the middle of their cut is that of the limb, however wide
+// they are, and no curve leads into a corner of it.
+TEST(Border, AFlatLimbThatIsCutOffRunsStraightToItAsOneCurve) {
+  for (const double roll : {0.0, 0.6, 1.2}) {
+    for (const double width : {16.0, 24.0, 30.0}) {
+      for (const bool bar : {false, true}) {
+        const auto is_in = [&](double x, double y, double z, double wide, double thick) {
+          const double dx = x - 64, dy = y - 64, dz = z - 32;
+          const double aside = (3 * dy - dx) / std::sqrt(10);
+          const double u = (std::cos(roll) * aside + std::sin(roll) * dz) / wide;
+          const double v = (std::cos(roll) * dz - std::sin(roll) * aside) / thick;
+          return bar ? std::max(std::abs(u), std::abs(v)) <= 1 : u * u + v * v <= 1;
+        };
+        const Volume limb = VolumeWhere({64, 64, 32}, [&](double x, double y, double z) {
+          return is_in(x, y, z, width, 7);
+        });
+        const SkeletonizeResult result = SkeletonOf(limb, Continued());
+        ASSERT_EQ(result.graph.edges.size(), 1u) << roll << " " << width << " " << bar;
+        for (const SkeletonNode& node : result.graph.nodes) {
+          const LatticePoint p = node.at.point;
+          EXPECT_TRUE(p.x <= 1 || p.x >= 126) << roll << " " << width << " " << bar << ": " << p.x;
+          EXPECT_TRUE(is_in(p.x, p.y, p.z, width / 4, 4)) << roll << " " << width << " " << bar;
+        }
+      }
+    }
+  }
+}
+
+// Limbs that run along the border, bodies that touch it and two limbs that touch there.
+TEST(Border, OnlyCutsAcrossALimbLeadACurveToTheBorder) {
+  const auto ends_of = [](const auto& is_in) {
+    const SkeletonizeResult result = SkeletonOf(VolumeWhere({48, 32, 32}, is_in), Continued());
+    return std::ranges::count(result.graph.nodes, NodeKind::kEnd, &SkeletonNode::kind);
+  };
+  EXPECT_EQ(ends_of([](double x, double y, double z) {
+              return std::hypot(std::max(std::abs(x - 48) - 30, 0.0), y - 32, z) <= 8;
+            }),
+            2);
+  EXPECT_EQ(ends_of([](double x, double y, double z) {  // a ball and its spine
+              return std::hypot(x - 16, y - 32, z - 32) <= 19 ||
+                     (x > 16 && x < 70 && std::hypot(y - 32, z - 32) <= 6);
+            }),
+            2);
+  EXPECT_EQ(ends_of([](double x, double y, double z) {  // a V
+              const double beside = std::abs(y - 32) - (10 + 0.04 * x);
+              return x < 80 && std::hypot(beside, z - 32) <= 11;
+            }),
+            4);
+}
+
 // Two crossed bars, cut out of a stack of this height: limbs stay, however thin the stack is.
 TEST(Border, ARodInOneLayerKeepsItsEnds) {
   for (const double radius : {4.0, 6.0, 9.0}) {
