@@ -173,7 +173,7 @@ bool IsOpen(const std::string& address) { return !IsOfThisMachine(address); }
 absl::Status CheckTokens(const ServerConfig& config) {
   if (config.tokens.empty()) return absl::OkStatus();
   const absl::Status table = TokenTable::ReadFile(config.tokens).status();
-  const absl::Status file(table.code(), absl::StrCat("--tokens: ", table.message()));
+  absl::Status file(table.code(), absl::StrCat("--tokens: ", table.message()));
   if (!file.ok() || config.tls.enabled() || config.plaintext_tokens == "allow") return file;
   std::vector<std::string> addresses = config.listen;
   if (!config.admin_listen.empty()) addresses.push_back(config.admin_listen);

@@ -45,6 +45,20 @@ CrossSection CrossSections::Across(const Coordinates& middle, const Coordinates&
   return section;
 }
 
+double CrossSections::NarrowerSide(const Coordinates& middle, const Coordinates& way, double radius,
+                                   double reach) {
+  const auto [u, v] = ::bccskel::Across(way);
+  const double start = std::floor(radius);
+  double longest = 0;
+  for (const auto& [cosine, sine] : kTurns) {
+    const Coordinates side = Sum(Sum({0, 0, 0}, cosine, u), sine, v);
+    const double there = WayOut(middle, side, start, reach);
+    if (there <= longest) continue;
+    longest = std::max(longest, WayOut(middle, Sum({0, 0, 0}, -1, side), start, there));
+  }
+  return longest;
+}
+
 void CrossSections::Refine(double reach, CrossSection& section) {
   const bool wide = section.half_width > kRoundness * section.radius + kRoundMargin;
   if (wide) TurnFinely(reach, section);

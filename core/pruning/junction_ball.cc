@@ -7,7 +7,6 @@
 namespace bccskel {
 namespace {
 
-constexpr double kExit = 0.8;          // distance of exits from the center, in radii
 constexpr double kLeastRadius = 0.3;   // least radius of a body's end there, in the ball's radii
 constexpr double kThinnerLimb = 0.85;  // largest radius of the other limbs, in radii of the end
 constexpr double kMostPoints = 1024;   // a closed surface or dense hair fills the whole ball
@@ -16,8 +15,8 @@ constexpr double kMostPerUnit = 8;     // of its radius; curves have one point p
 }  // namespace
 
 JunctionBall::JunctionBall(const ThinSet& set, LatticePoint center,
-                           std::span<const LatticePoint> without)
-    : radius_(set.RadiusOf(center)), reach_(kExit * radius_), visited_{{center}} {
+                           std::span<const LatticePoint> without, double radii)
+    : radius_(set.RadiusOf(center)), reach_(radii * radius_), visited_{{center}} {
   const auto most = static_cast<size_t>(std::max(kMostPoints, kMostPerUnit * radius_));
   PointTable<size_t> seen;  // index of each in visited_
   seen.Set(center, 0);
@@ -67,7 +66,7 @@ bool IsBodyEnd(const ThinSet& set, const FreeBranch& branch) {
   if (!set.Branches(junction)) return false;
   const double radius = set.RadiusOf(junction);
   const auto exit = std::find_if(branch.points.rbegin(), branch.points.rend(), [&](LatticePoint p) {
-    return set.Between(junction, p) >= kExit * radius;
+    return set.Between(junction, p) >= JunctionBall::kExit * radius;
   });
   if (exit == branch.points.rend()) return false;
   const double own = set.RadiusOf(*exit);

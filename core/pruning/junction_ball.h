@@ -15,13 +15,17 @@ namespace bccskel {
 // its radius, where branches can be compared.
 class JunctionBall {
  public:
+  static constexpr double kExit = 0.8;
+
   struct Visited {
     LatticePoint p;
     size_t before = 0;  // index of the point before it on the way from the center
   };
 
-  // `without`: the points of a branch that is left out, the one beside the center last.
-  JunctionBall(const ThinSet& set, LatticePoint center, std::span<const LatticePoint> without = {});
+  // `without`: the points of a branch that is left out, the one beside the center last. `radii`:
+  // distance of the exits, in radii of the ball.
+  JunctionBall(const ThinSet& set, LatticePoint center, std::span<const LatticePoint> without = {},
+               double radii = kExit);
 
   // From the center, which is the first, to the exits.
   std::span<const Visited> visited() const { return visited_; }

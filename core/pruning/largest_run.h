@@ -18,6 +18,14 @@ struct Run {
   double ratio = 0;       // (elongation - noise allowance) / D(q)
 };
 
+// Widths are measured at so many places of a run, evenly spread.
+inline constexpr size_t kRunPlaces = 11;
+
+// Position of one of them in the path.
+inline size_t PlaceIn(const Run& run, size_t place) {
+  return run.from + (run.to - run.from) * place / (kRunPlaces - 1);
+}
+
 // Factor of D(q) - D(p) in the elongation: a part whose radius falls by half its length does not
 // stick out.
 inline constexpr double kSteepness = 2;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/pruning/junction_ball.h"
+#include "core/pruning/trunk.h"
 
 namespace bccskel {
 namespace {
@@ -23,10 +24,12 @@ constexpr double kLeastFine = 0.35;     // below this, a rough value suffices
 constexpr size_t kRoots = 7;            // the limb may begin at one of the first seven places
 constexpr size_t kNearTip = 9;          // a place near the tip
 constexpr double kLongestRay = 400;
-constexpr double kBulge = 1.2;       // least radius of a bulge at its end, in radii of the junction
-constexpr double kInJunction = 0.9;  // places nearer belong to the junction, in its radii
-constexpr double kLeastBall = 2.5;   // least radius of a body with ends, in noise and margin
+constexpr double kBulge = 1.2;      // least radius of a bulge at its end, in radii of the junction
+constexpr double kLeastBall = 2.5;  // least radius of a body with ends, in noise and margin
 constexpr size_t kCoverSamples = 16;
+// On a rough surface, noise makes limbs beside trunks: there it is subtracted from lengths and not
+// from their squares, in proportion to the roughness, from 1 / 25 on completely.
+constexpr double kRoughShare = 25;
 
 BranchPath PathOf(const ThinSet& set, const FreeBranch& branch) {
   BranchPath path{{*branch.junction}, {}};
@@ -35,19 +38,11 @@ BranchPath PathOf(const ThinSet& set, const FreeBranch& branch) {
   return path;
 }
 
-// Position in the path of one of the kPlaces places of a run.
-size_t PlaceIn(const Run& run, size_t place) {
-  return run.from + (run.to - run.from) * place / (Significance::kPlaces - 1);
-}
-
 // For a bulge, thicker than the limb that it sits on, the first place outside the ball at the
 // junction: inside, lines across the branch run along that limb.
 size_t FirstOwnPlace(const ThinSet& set, const BranchPath& path, const Run& run) {
   if (path.radii[run.to] < kBulge * path.radii[0]) return 0;
-  size_t place = 0;
-  const auto way = [&] { return set.Between(path.points[0], path.points[PlaceIn(run, place)]); };
-  while (place + 1 < Significance::kPlaces && way() < kInJunction * path.radii[0]) ++place;
-  return place;
+  return std::min(FirstPlaceOutside(set, path, run), Significance::kPlaces - 1);
 }
 
 // By how much the object is wider than the radius.
@@ -85,9 +80,27 @@ double Significance::Of(const ThinSet& set, const FreeBranch& branch) {
     verdicts_.Set(branch.points[0], Look(set, branch));
     last = verdicts_.Find(branch.points[0]);
   }
-  double value = last->value;
-  if (value >= kLeastRatio) value *= UncoveredShare(set, branch, last->run);
+  double value = last->value, beside_trunk = last->beside_trunk;
+  if (std::max(value, beside_trunk) >= kLeastRatio) {
+    const double uncovered = UncoveredShare(set, branch, last->run);
+    if (value >= kLeastRatio) value *= uncovered;
+    beside_trunk *= uncovered;
+  }
+  if (beside_trunk > value && beside_trunk >= kLeastRatio && value < kSureRatio &&
+      LeavesTrunk(set, branch, scale_, sections_)) {
+    value = beside_trunk;
+  }
   return value < kSureRatio ? std::max(value, OfBodyEnd(set, branch, value)) : value;
+}
+
+double Significance::BesideTrunk(const ThinSet& set, const BranchPath& path, const Run& run) {
+  const Coordinates along = set.Way(path.points[run.from], path.points[run.to]);
+  const double root = path.radii[run.from], rough = std::min(kRoughShare * noise_.roughness, 1.0);
+  const double simple = run.elongation - noise_.Stretch(along) * noise_.At(root) - kNoiseMargin;
+  const double out = (1 - rough) * BeyondNoise(run.elongation, root, along) + rough * simple;
+  if (out < kLeastRatio * root) return 0;
+  const std::optional<double> wider = WidthBesideTrunk(set, path, run, scale_, sections_);
+  return wider.has_value() ? out / (root + kWidthShare * *wider) : 0;
 }
 
 // Where the border cuts a flat limb off, branches lead into the corners of the cut.
@@ -197,6 +210,7 @@ Significance::Verdict Significance::Look(const ThinSet& set, const FreeBranch& b
   best.value = largest.ratio;
   if (largest.ratio < kLeastRatio) return best;
   best.value = ValueOf(set, path, largest);
+  if (best.value < kSureRatio) best.beside_trunk = BesideTrunk(set, path, largest);
   size_t first = PlaceIn(largest, kPlaces / 2);
   while (first + kPlaces <= path.points.size()) {
     const Run run = LargestRun(set, path, noise_, first);

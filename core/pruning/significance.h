@@ -45,8 +45,8 @@ namespace bccskel {
 // Threads: one thread per instance; LookAhead() uses the context's.
 class Significance {
  public:
-  static constexpr size_t kPlaces = 11;  // positions of a run, evenly spaced
-  static constexpr size_t kWork = 256;   // work of a branch, for Context::WorkersFor()
+  static constexpr size_t kPlaces = kRunPlaces;  // positions of a run, evenly spaced
+  static constexpr size_t kWork = 256;           // work of a branch, for Context::WorkersFor()
 
   // Needs: `object` outlives this; `noise` is that of its surface. `extender`, of the same object,
   //        extends branches beyond the end that thinning gave them; none: they end there.
@@ -68,6 +68,8 @@ class Significance {
   // it sticks out of the ball at its junction, relative to that ball's radius and the width, as
   // above. -infinity if the branch is not the end of a body, the ball is too small, or the value is
   // at most `least` or 0.2. Needs: as Of().
+  // The value of a limb that leaves a trunk, by its width beside it.
+  double BesideTrunk(const ThinSet& set, const BranchPath& path, const Run& run);
   bool LeadsBesideCut(const ThinSet& set, const FreeBranch& branch) const;
   double OfBodyEnd(const ThinSet& set, const FreeBranch& branch,
                    double least = -std::numeric_limits<double>::infinity());
@@ -93,7 +95,8 @@ class Significance {
     LatticePoint junction;
     size_t points = 0;
     Run run;
-    double value = 0;  // without the factor `uncovered`
+    double value = 0;         // without the factor `uncovered`
+    double beside_trunk = 0;  // the same if the other branches are round
   };
 
   using Sections = std::array<CrossSection, kPlaces>;

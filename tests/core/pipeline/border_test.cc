@@ -82,9 +82,8 @@ TEST(Border, AFlatLimbThatIsCutOffRunsStraightToItAsOneCurve) {
           const double v = (std::cos(roll) * dz - std::sin(roll) * aside) / thick;
           return bar ? std::max(std::abs(u), std::abs(v)) <= 1 : u * u + v * v <= 1;
         };
-        const Volume limb = VolumeWhere({64, 64, 32}, [&](double x, double y, double z) {
-          return is_in(x, y, z, width, 7);
-        });
+        const Volume limb = VolumeWhere(
+            {64, 64, 32}, [&](double x, double y, double z) { return is_in(x, y, z, width, 7); });
         const SkeletonizeResult result = SkeletonOf(limb, Continued());
         ASSERT_EQ(result.graph.edges.size(), 1u) << roll << " " << width << " " << bar;
         for (const SkeletonNode& node : result.graph.nodes) {
