@@ -3,6 +3,7 @@
 #include <zlib.h>
 
 #include "absl/strings/escaping.h"
+#include "core/exec/status_macros.h"
 
 namespace bccskel::view {
 namespace {
@@ -26,13 +27,18 @@ std::string DifferencesOf(std::span<const uint32_t> numbers) {
 
 }  // namespace
 
-absl::StatusOr<std::string> PackText(std::string_view text) {
-  uLongf size = compressBound(text.size());
+absl::StatusOr<std::string> Deflate(std::string_view bytes) {
+  uLongf size = compressBound(bytes.size());
   std::string packed(size, '\0');
   const int code = compress2(reinterpret_cast<Bytef*>(packed.data()), &size,
-                             reinterpret_cast<const Bytef*>(text.data()), text.size(), 6);
-  if (code != Z_OK) return absl::ResourceExhaustedError("not enough memory to compress a page");
+                             reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), 6);
+  if (code != Z_OK) return absl::ResourceExhaustedError("not enough memory to compress");
   packed.resize(size);
+  return packed;
+}
+
+absl::StatusOr<std::string> PackText(std::string_view text) {
+  BCCSKEL_ASSIGN_OR_RETURN(const std::string packed, Deflate(text));
   return absl::Base64Escape(packed);
 }
 

@@ -10,8 +10,11 @@
 
 namespace bccskel::view {
 
-// Text that a page can hold and a browser can unpack: deflated (zlib), in base64.
+// The bytes deflated, in the format of zlib.
 // Errors: RESOURCE_EXHAUSTED when the compressor gets no memory.
+absl::StatusOr<std::string> Deflate(std::string_view bytes);
+
+// Text that a page can hold and a browser can unpack: deflated, in base64. Errors: as Deflate().
 absl::StatusOr<std::string> PackText(std::string_view text);
 
 // Packed as above: the difference of each number to the previous one, zigzag-encoded, in bytes of

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <utility>
 
+#include "client/view/packed_numbers.h"
+
 namespace bccskel::exporting {
 namespace {
 
@@ -46,45 +48,16 @@ std::string FilteredRows(const RgbaImage& image) {
   return rows;
 }
 
-absl::StatusOr<std::string> Compress(const std::string& bytes) {
-  uLongf size = compressBound(bytes.size());
-  std::string compressed(size, '\0');
-  const int code = compress2(reinterpret_cast<Bytef*>(compressed.data()), &size,
-                             reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), 6);
-  if (code != Z_OK) return absl::ResourceExhaustedError("not enough memory to compress a picture");
-  compressed.resize(size);
-  return compressed;
-}
-
 }  // namespace
 
 absl::StatusOr<std::string> EncodePng(const RgbaImage& image) {
-  absl::StatusOr<std::string> rows = Compress(FilteredRows(image));
+  absl::StatusOr<std::string> rows = view::Deflate(FilteredRows(image));
   if (!rows.ok()) return std::move(rows).status();
   std::string png = "\x89PNG\r\n\x1a\n";
   AppendChunk(png, "IHDR", HeaderOf(image));
   AppendChunk(png, "IDAT", *rows);
   AppendChunk(png, "IEND", "");
   return png;
-}
-
-std::string EncodeBase64(std::string_view bytes) {
-  constexpr std::string_view kDigits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (size_t n = 0; n < bytes.size(); n += 3) {
-    const size_t rest = bytes.size() - n;
-    const auto byte = [&](size_t i) {
-      return i < rest ? static_cast<uint32_t>(static_cast<uint8_t>(bytes[n + i])) : 0u;
-    };
-    const uint32_t triple = byte(0) << 16 | byte(1) << 8 | byte(2);
-    text.push_back(kDigits[triple >> 18]);
-    text.push_back(kDigits[triple >> 12 & 63]);
-    text.push_back(rest > 1 ? kDigits[triple >> 6 & 63] : '=');
-    text.push_back(rest > 2 ? kDigits[triple & 63] : '=');
-  }
-  return text;
 }
 
 }  // namespace bccskel::exporting

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "absl/strings/escaping.h"
 #include "client/export/picture/caption.h"
 #include "client/export/picture/display_curve.h"
 #include "client/export/picture/escape.h"
@@ -169,7 +170,7 @@ absl::Status AddPanel(Text& svg, const Subject& subject, const Scene& scene, con
           panel.size.height, "\">\n<rect class=\"p\" width=\"100%\" ",
           "height=\"100%\" rx=\"10\"/>\n");
   svg.Add("<image width=\"", panel.size.width, "\" height=\"", panel.size.height,
-          "\" href=\"data:image/png;base64,", EncodeBase64(png), "\"/>\n");
+          "\" href=\"data:image/png;base64,", absl::Base64Escape(png), "\"/>\n");
   const double boldness = panel.size.width > 500 ? 1 : 0.7;
   const bool dense = subject.result.graph.nodes.size() > 300;
   AddSheets(svg, subject.result.graph, scene.radii, projection,
