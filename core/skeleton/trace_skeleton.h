@@ -12,17 +12,14 @@
 
 namespace bccskel {
 
-// Memory that TraceSkeleton() needs for each point of a skeleton, including its graph as long as
-// that has at most kEdgePointsPerPoint points on edges for each. Measured: 330 bytes for isolated
-// points, 400 for nets.
-inline constexpr uint64_t kTraceBytesPerPoint = 512;
+// Points on edges, for each point of a skeleton, whose memory the caller has reserved.
 inline constexpr size_t kEdgePointsPerPoint = 4;
 // Memory for each further point on edges, including the copies that merging junctions makes. Paths
 // to the middle of large clusters have many.
 inline constexpr uint64_t kTraceBytesPerEdgePoint = 256;
 
 // TraceSkeleton() within a budget. Reserves the memory of points on edges beyond
-// kTraceBytesPerPoint, which the caller has reserved.
+// kEdgePointsPerPoint; the caller has reserved that of the rest.
 // Errors: as TraceSkeleton(); the budget's.
 absl::StatusOr<SkeletonGraph> TraceSkeleton(const ThinSkeleton& skeleton,
                                             exec::MemoryBudget& memory,

@@ -32,7 +32,7 @@ class Ticket {
   // Releases the memory above `bytes`.
   void ShrinkTo(uint64_t bytes);
   // Shrinks or grows the reservation to `bytes`.
-  // Errors: a CallError: kTooMuchMemory, or kMemoryBusy with NeededBytesOf(); the ticket is then
+  // Errors: a CallError: kVolumeTooLarge, or kMemoryBusy with NeededBytesOf(); the ticket is then
   //         unchanged.
   absl::Status ResizeTo(uint64_t bytes);
   // Releases the place among the jobs and keeps the memory.
@@ -76,7 +76,7 @@ class Admission {
       const Limits& limits, std::function<void()> reclaim = [] {})
       : limits_(limits), reclaim_(std::move(reclaim)) {}
 
-  // Errors: a CallError: kTooMuchMemory if the job could never be admitted, else kQueueFull,
+  // Errors: a CallError: kVolumeTooLarge if the job could never be admitted, else kQueueFull,
   //         kMemoryBusy with NeededBytesOf() or kDraining.
   absl::StatusOr<Ticket> Admit(const std::string& tenant, uint64_t bytes);
   absl::StatusOr<Ticket> Admit(uint64_t bytes) { return Admit(std::string(), bytes); }

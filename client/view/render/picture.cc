@@ -48,7 +48,7 @@ exporting::Projection ProjectionOf(const ResultDocument& result, const DisplaySu
       kSamplesPerPixel * FontSize(options));
 }
 
-// Many curves must be thinner to stay distinguishable; as in page/skeleton.js.
+// Many curves must be thinner to stay distinguishable.
 double ThinnedBy(const ResultDocument& result, const DisplaySurface& surface) {
   if (surface.vertices.empty()) return 1;
   const auto [low, high] = BoxOf(surface.vertices);
