@@ -94,12 +94,4 @@ ChamferWeights WithOptimalUnit(ChamferWeights weights, const AxisScale& scale) {
   return weights;
 }
 
-uint32_t ChamferBetween(LatticePoint a, LatticePoint b, const ChamferWeights& weights) {
-  std::array<uint32_t, 3> steps = {static_cast<uint32_t>(std::abs(a.x - b.x)),
-                                   static_cast<uint32_t>(std::abs(a.y - b.y)),
-                                   static_cast<uint32_t>(std::abs(a.z - b.z))};
-  std::ranges::sort(steps);
-  return weights.diagonal * steps[1] + weights.axial[0] * ((steps[2] - steps[1]) / 2);
-}
-
 }  // namespace bccskel

@@ -45,12 +45,6 @@ double LargestOverestimate(const AxisScale& scale);
 // The same steps in the unit that makes the largest errors above and below equal.
 ChamferWeights WithOptimalUnit(ChamferWeights weights, const AxisScale& scale);
 
-// Chamfer distance between two points, in counts.
-// Source: "Distance transforms for three-dimensional grids with non-cubic voxels", 2005: with
-//         |x| >= |y| >= |z| the shortest path has |y| D8 steps and (|x| - |y|) / 2 D6 steps.
-// Needs:  weights for equal spacing.
-uint32_t ChamferBetween(LatticePoint a, LatticePoint b, const ChamferWeights& weights);
-
 }  // namespace bccskel
 
 #endif  // BCCSKEL_CORE_DISTANCE_CHAMFER_WEIGHTS_H_

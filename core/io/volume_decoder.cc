@@ -7,17 +7,6 @@
 #include "core/io/planes_decoder.h"
 
 namespace bccskel {
-namespace {
-
-absl::StatusOr<Volume> DecodeWhole(const VolumeHeader& header, std::span<const std::byte> bytes,
-                                   const VolumeLimits& limits, const exec::Context& context) {
-  BCCSKEL_ASSIGN_OR_RETURN(const std::unique_ptr<VolumeDecoder> decoder,
-                           MakeVolumeDecoder(header, limits));
-  BCCSKEL_RETURN_IF_ERROR(decoder->Append(bytes));
-  return decoder->Finish(context);
-}
-
-}  // namespace
 
 absl::StatusOr<std::unique_ptr<VolumeDecoder>> MakeVolumeDecoder(const VolumeHeader& header,
                                                                  const VolumeLimits& limits) {
@@ -38,18 +27,15 @@ absl::StatusOr<std::unique_ptr<VolumeDecoder>> MakeVolumeDecoder(const VolumeHea
 absl::StatusOr<Volume> DecodeVolume(VolumeEncoding encoding, std::span<const std::byte> bytes,
                                     const VolumeLimits& limits, const exec::Context& context) {
   BCCSKEL_ASSIGN_OR_RETURN(const VolumeHeader header, ScanVolumeHeader(encoding, bytes, limits));
-  return DecodeWhole(header, bytes, limits, context);
+  BCCSKEL_ASSIGN_OR_RETURN(const std::unique_ptr<VolumeDecoder> decoder,
+                           MakeVolumeDecoder(header, limits));
+  BCCSKEL_RETURN_IF_ERROR(decoder->Append(bytes));
+  return decoder->Finish(context);
 }
 
 absl::StatusOr<Volume> DecodeVolume(VolumeEncoding encoding, std::string_view bytes,
                                     const VolumeLimits& limits, const exec::Context& context) {
   return DecodeVolume(encoding, std::as_bytes(std::span(bytes)), limits, context);
-}
-
-absl::StatusOr<Volume> DecodePlanes(const LatticeExtent& extent, const Placement& placement,
-                                    std::span<const std::byte> bytes, const VolumeLimits& limits) {
-  BCCSKEL_ASSIGN_OR_RETURN(const VolumeHeader header, MakePlanesHeader(extent, placement, limits));
-  return DecodeWhole(header, bytes, limits, exec::Context());
 }
 
 }  // namespace bccskel

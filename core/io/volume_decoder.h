@@ -39,8 +39,8 @@ class VolumeDecoder {
   virtual std::optional<BettiNumbers> mask_topology() const { return std::nullopt; }
 };
 
-// `header` comes from ScanVolumeHeader() or MakePlanesHeader(); the decoder insists that the bytes
-// have this very header.
+// `header` comes from ScanVolumeHeader() or CompleteVolumeHeader(); the decoder insists that the
+// bytes have this very header.
 // Errors: as CompleteVolumeHeader().
 absl::StatusOr<std::unique_ptr<VolumeDecoder>> MakeVolumeDecoder(const VolumeHeader& header,
                                                                  const VolumeLimits& limits);
@@ -53,11 +53,6 @@ absl::StatusOr<Volume> DecodeVolume(VolumeEncoding encoding, std::span<const std
 absl::StatusOr<Volume> DecodeVolume(VolumeEncoding encoding, std::string_view bytes,
                                     const VolumeLimits& limits = {},
                                     const exec::Context& context = {});
-
-// Whole raw planes, not compressed.
-absl::StatusOr<Volume> DecodePlanes(const LatticeExtent& extent, const Placement& placement,
-                                    std::span<const std::byte> bytes,
-                                    const VolumeLimits& limits = {});
 
 }  // namespace bccskel
 

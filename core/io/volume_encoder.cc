@@ -49,9 +49,4 @@ absl::StatusOr<std::string> EncodeVolume(const Volume& volume, const EncodeVolum
   return std::move(sink).Take();
 }
 
-absl::StatusOr<std::string> EncodePlanes(const Volume& volume) {
-  return EncodeVolume(
-      volume, {.encoding = VolumeEncoding::kRawPlanes, .compression = VolumeCompression::kNone});
-}
-
 }  // namespace bccskel

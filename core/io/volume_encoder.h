@@ -32,9 +32,6 @@ absl::StatusOr<std::string> EncodeVolume(const Volume& volume,
 absl::Status EncodeVolumeTo(const Volume& volume, const EncodeVolumeOptions& options,
                             ByteSink& sink, const exec::Context& context = {});
 
-// Raw planes, not compressed.
-absl::StatusOr<std::string> EncodePlanes(const Volume& volume);
-
 }  // namespace bccskel
 
 #endif  // BCCSKEL_CORE_IO_VOLUME_ENCODER_H_

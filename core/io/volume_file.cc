@@ -201,13 +201,6 @@ absl::StatusOr<Volume> DecodeFile(const FileDescriptor& file, const LayerPart& s
   return decoder->Finish(context);
 }
 
-absl::StatusOr<VolumeHeader> InspectFile(const FileDescriptor& file, const VolumeLimits& limits) {
-  std::vector<std::byte> buffer(kMaxHeaderBytes);
-  BCCSKEL_ASSIGN_OR_RETURN(const std::span<const std::byte> front, ReadSome(file, buffer));
-  BCCSKEL_ASSIGN_OR_RETURN(const VolumeEncoding encoding, SniffVolumeEncoding(front));
-  return ScanVolumeHeader(encoding, front, limits);
-}
-
 absl::Status ReplaceFile(const std::string& path, const Volume& volume,
                          const WriteVolumeOptions& options, const exec::Context& context) {
   BCCSKEL_ASSIGN_OR_RETURN(const EncodeVolumeOptions encoding, EncodingFor(path, options));
@@ -232,15 +225,6 @@ absl::StatusOr<Volume> ReadVolumePart(const std::string& path, const LayerPart& 
   absl::StatusOr<Volume> volume = DecodeFile(file, part, limits, context);
   if (!volume.ok()) return InFile(path, volume.status());
   return volume;
-}
-
-absl::StatusOr<VolumeHeader> InspectVolumeFile(const std::string& path,
-                                               const VolumeLimits& limits) {
-  const FileDescriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  if (!file.is_open()) return InFile(path, SystemError("cannot open"));
-  absl::StatusOr<VolumeHeader> header = InspectFile(file, limits);
-  if (!header.ok()) return InFile(path, header.status());
-  return header;
 }
 
 absl::Status WriteVolumeFile(const std::string& path, const Volume& volume,

@@ -28,10 +28,6 @@ absl::StatusOr<Volume> ReadVolumePart(const std::string& path, const LayerPart& 
                                       const VolumeLimits& limits = {},
                                       const exec::Context& context = {});
 
-// Reads no more than the header.
-absl::StatusOr<VolumeHeader> InspectVolumeFile(const std::string& path,
-                                               const VolumeLimits& limits = {});
-
 struct WriteVolumeOptions {
   // What is not given follows from the name: .exr is OpenEXR with ZIP, .bccb bricks with zstd.
   std::optional<VolumeEncoding> encoding = std::nullopt;

@@ -210,30 +210,4 @@ absl::StatusOr<VolumeHeader> ScanVolumeHeader(VolumeEncoding encoding,
                       VolumeEncodingName(encoding)));
 }
 
-absl::StatusOr<VolumeHeader> MakePlanesHeader(const LatticeExtent& extent,
-                                              const Placement& placement,
-                                              const VolumeLimits& limits,
-                                              VolumeCompression compression,
-                                              std::optional<uint64_t> declared_bricks) {
-  return CompleteVolumeHeader({.encoding = VolumeEncoding::kRawPlanes,
-                               .compression = compression,
-                               .extent = extent,
-                               .placement = placement,
-                               .declared_bricks = declared_bricks},
-                              limits);
-}
-
-absl::StatusOr<VolumeHeader> MakeMaskHeader(const MaskDeclaration& mask, const VolumeLimits& limits,
-                                            VolumeCompression compression,
-                                            std::optional<uint64_t> declared_bricks) {
-  BCCSKEL_RETURN_IF_ERROR(CheckMaskGrid(mask.grid));
-  return CompleteVolumeHeader({.encoding = VolumeEncoding::kCubicMask,
-                               .compression = compression,
-                               .extent = ExactExtent(mask.grid, mask.points),
-                               .placement = ExactPlacement(mask.grid, mask.points),
-                               .mask = mask,
-                               .declared_bricks = declared_bricks},
-                              limits);
-}
-
 }  // namespace bccskel

@@ -84,20 +84,6 @@ absl::StatusOr<VolumeHeader> ScanVolumeHeader(VolumeEncoding encoding,
                                               std::span<const std::byte> front,
                                               const VolumeLimits& limits);
 
-// The header of raw planes, made from what the sender declares beside them. When `declared_bricks`
-// is given, decoding to more bricks is an error.
-// Errors: as ScanVolumeHeader().
-absl::StatusOr<VolumeHeader> MakePlanesHeader(
-    const LatticeExtent& extent, const Placement& placement, const VolumeLimits& limits,
-    VolumeCompression compression = VolumeCompression::kNone,
-    std::optional<uint64_t> declared_bricks = std::nullopt);
-
-// The header of a cubic mask. Errors: as ScanVolumeHeader().
-absl::StatusOr<VolumeHeader> MakeMaskHeader(
-    const MaskDeclaration& mask, const VolumeLimits& limits,
-    VolumeCompression compression = VolumeCompression::kNone,
-    std::optional<uint64_t> declared_bricks = std::nullopt);
-
 // Checks grid and limits and fills in the derived fields.
 // Errors: as ScanVolumeHeader().
 absl::StatusOr<VolumeHeader> CompleteVolumeHeader(VolumeHeader header, const VolumeLimits& limits);

@@ -8,13 +8,6 @@ double SkeletonGraph::RadiusOf(const SkeletonPoint& p) const {
   return p.radius * std::ranges::min(placement.spacing) / 2;
 }
 
-WorldPoint SkeletonGraph::ShiftedPositionOf(const SkeletonPoint& p) const {
-  const auto shifted = [&](int32_t coordinate, size_t axis) {
-    return coordinate + p.shift[axis] / static_cast<double>(kShiftUnits);
-  };
-  return placement.ToWorld(shifted(p.point.x, 0), shifted(p.point.y, 1), shifted(p.point.z, 2));
-}
-
 bool SkeletonGraph::HasShifts() const {
   const auto is_shifted = [](const SkeletonPoint& p) {
     return p.shift != std::array<int16_t, 3>{0, 0, 0};

@@ -99,8 +99,6 @@ struct SkeletonGraph {
     return std::span(points).subspan(edge.first_point, edge.point_count);
   }
   WorldPoint PositionOf(const SkeletonPoint& p) const { return placement.ToWorld(p.point); }
-  // The position moved by its shift.
-  WorldPoint ShiftedPositionOf(const SkeletonPoint& p) const;
   // World units.
   double RadiusOf(const SkeletonPoint& p) const;
   // Whether its kind of skeleton keeps isthmuses and there are any.

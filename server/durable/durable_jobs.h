@@ -88,7 +88,7 @@ class DurableJobs final : public RunObserver {
   Flow CreateUpload(std::string tenant, NewUpload upload, Done<UploadInfo> done);
   // Yields the committed size, when there is room for more. Checks `bytes` against `crc32c` if
   // given.
-  // Errors: OUT_OF_RANGE with the payload CommittedSizeOf() for a wrong offset and for more bytes
+  // Errors: OUT_OF_RANGE with the detail "committed_size" for a wrong offset and for more bytes
   //         than declared; ABORTED during another Append() or FinishUpload(); INVALID_ARGUMENT for
   //         a wrong checksum, or for a volume found malformed during the upload;
   //         FAILED_PRECONDITION after the upload was finished.

@@ -34,7 +34,6 @@ const Meaning& MeaningOf(Reason reason) { return kMeanings[static_cast<size_t>(r
 // Occurs in stored jobs: lines of reason, key, value, field and quota.
 constexpr char kPayloadUrl[] = "bccskel.server/fault";
 constexpr char kWireUrl[] = "type.googleapis.com/google.rpc.ErrorInfo";
-constexpr char kCommittedSize[] = "committed_size";
 constexpr char kNeededBytes[] = "needed_bytes";
 
 struct Stated {
@@ -53,12 +52,6 @@ std::optional<Stated> StatedBy(const absl::Status& status) {
                   {.field = parts[3], .quota = parts[4], .key = parts[1], .value = parts[2]}};
   }
   return std::nullopt;
-}
-
-std::optional<uint64_t> NumberOf(const absl::Status& status, const char* key) {
-  const ErrorDetails details = DetailsOf(status);
-  if (details.key != key) return std::nullopt;
-  return std::strtoull(details.value.c_str(), nullptr, 10);
 }
 
 std::string TextOf(const absl::Status& status) { return std::string(status.message()); }
@@ -84,7 +77,7 @@ absl::Status InvalidVolume(const std::string& message) {
 
 absl::Status WrongOffset(const std::string& message, uint64_t committed_bytes) {
   return CallError(Reason::kChunkOffset, message,
-                   {.key = kCommittedSize, .value = absl::StrCat(committed_bytes)});
+                   {.key = "committed_size", .value = absl::StrCat(committed_bytes)});
 }
 
 absl::Status MemoryBusy(const std::string& message, uint64_t needed_bytes) {
@@ -111,12 +104,10 @@ ErrorDetails DetailsOf(const absl::Status& status) {
   return StatedBy(status).value_or(Stated()).details;
 }
 
-std::optional<uint64_t> CommittedSizeOf(const absl::Status& status) {
-  return NumberOf(status, kCommittedSize);
-}
-
 std::optional<uint64_t> NeededBytesOf(const absl::Status& status) {
-  return NumberOf(status, kNeededBytes);
+  const ErrorDetails details = DetailsOf(status);
+  if (details.key != kNeededBytes) return std::nullopt;
+  return std::strtoull(details.value.c_str(), nullptr, 10);
 }
 
 const char* NameOf(Reason reason) { return MeaningOf(reason).name; }

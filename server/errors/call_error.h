@@ -71,7 +71,7 @@ absl::Status CallError(Reason reason, const std::string& message, const ErrorDet
 absl::Status InvalidField(const std::string& field, const std::string& description);
 // INVALID_ARGUMENT: the bytes of a volume are malformed.
 absl::Status InvalidVolume(const std::string& message);
-// OUT_OF_RANGE: the caller should resume at `committed_bytes`.
+// OUT_OF_RANGE: the caller should resume at `committed_bytes`, the detail "committed_size".
 absl::Status WrongOffset(const std::string& message, uint64_t committed_bytes);
 // UNAVAILABLE: the job would need `needed_bytes` of memory in all.
 absl::Status MemoryBusy(const std::string& message, uint64_t needed_bytes);
@@ -86,8 +86,6 @@ bool StatesReason(const absl::Status& status);
 // nullopt unless CallError() made the status.
 std::optional<Reason> ReasonOf(const absl::Status& status);
 ErrorDetails DetailsOf(const absl::Status& status);
-// The size at which a caller with a wrong offset should resume.
-std::optional<uint64_t> CommittedSizeOf(const absl::Status& status);
 // The memory that a job needs which found too little of it.
 std::optional<uint64_t> NeededBytesOf(const absl::Status& status);
 

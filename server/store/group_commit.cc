@@ -86,7 +86,6 @@ absl::Status GroupCommit::WriteAll(std::span<Entry> batch) {
 
 // Runs one transaction. Errors: ABORTED when steps are needed; else as WriteAll().
 absl::Status GroupCommit::WriteOnce(std::span<Entry> batch, Steps steps) {
-  ++commits_;
   absl::Status written = [&]() -> absl::Status {
     BCCSKEL_RETURN_IF_ERROR(store_->Begin());
     if (on_begin_) on_begin_();

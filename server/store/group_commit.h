@@ -1,7 +1,6 @@
 #ifndef BCCSKEL_SERVER_STORE_GROUP_COMMIT_H_
 #define BCCSKEL_SERVER_STORE_GROUP_COMMIT_H_
 
-#include <atomic>
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
@@ -55,8 +54,6 @@ class GroupCommit {
   // Not OK when changes cannot be stored or data may have been read wrongly. A full disk is OK.
   absl::Status Health() const;
 
-  uint64_t commits() const { return commits_; }
-
  private:
   struct Entry {
     Change change;  // null: none
@@ -78,7 +75,6 @@ class GroupCommit {
   absl::Status RunWithoutStep(Entry& entry);
 
   const std::unique_ptr<JobStore> store_;
-  std::atomic<uint64_t> commits_ = 0;
   std::function<void()> on_begin_;
   const std::unique_ptr<DiskReserve> reserve_;  // may be null
   mutable std::mutex mutex_;

@@ -46,7 +46,7 @@ void Write(const std::string& path, std::string_view bytes) {
 void ReadStatus(const std::string& bytes) {
   const absl::Status status = StatusOfBytes(bytes);
   DetailsOf(status);
-  CommittedSizeOf(status);
+  NeededBytesOf(status);
   if (!status.ok()) Insist(!WithJobReason(status).ok() && !WithDiskReason(status).ok());
   // What was read is what is stored again.
   const absl::Status again = StatusOfBytes(BytesOf(status));

@@ -119,6 +119,15 @@ struct Pose {
   std::vector<double> radii = {};
 };
 
+// The position moved by its shift.
+WorldPoint ShiftedPositionOf(const SkeletonGraph& graph, const SkeletonPoint& p) {
+  const auto shifted = [&](int32_t coordinate, size_t axis) {
+    return coordinate + p.shift[axis] / static_cast<double>(kShiftUnits);
+  };
+  return graph.placement.ToWorld(shifted(p.point.x, 0), shifted(p.point.y, 1),
+                                 shifted(p.point.z, 2));
+}
+
 absl::StatusOr<Pose> PoseOf(TriangleMesh mesh, uint64_t points, const Frame& frame,
                             LatticeAxes axes, const SkeletonizeOptions& options) {
   for (TriangleMesh::Vertex& v : mesh.vertices) {
@@ -133,7 +142,7 @@ absl::StatusOr<Pose> PoseOf(TriangleMesh mesh, uint64_t points, const Frame& fra
   Pose pose = {.ends = CountNodes(graph, NodeKind::kEnd)};
   const auto in_frame = [&](const WorldPoint& at) { return frame.TurnBack({at[0], at[1], at[2]}); };
   for (const SkeletonPoint& p : graph.points) {
-    pose.places.push_back(in_frame(graph.ShiftedPositionOf(p)));
+    pose.places.push_back(in_frame(ShiftedPositionOf(graph, p)));
     pose.radii.push_back(graph.RadiusOf(p));
   }
   for (const SkeletonEdge& edge : graph.edges) {

@@ -32,19 +32,6 @@ void ExpectReferenceDistances(const Volume& object, const exec::Context& context
   EXPECT_EQ(field->largest(), largest);
 }
 
-TEST(ChamferDistance, OfTwoPointsIsTheShortestPathOfSteps) {
-  const LatticePoint origin = {20, 20, 20};
-  for (int x = 0; x < 40; ++x) {
-    for (int y = 0; y < 40; ++y) {
-      for (int z = 0; z < 40; ++z) {
-        if (!IsOnLattice({x, y, z})) continue;
-        ASSERT_EQ(ChamferBetween(origin, {x, y, z}, kShortChamfer),
-                  test::ReferenceChamferBetween(origin, {x, y, z}));
-      }
-    }
-  }
-}
-
 TEST(ChamferDistance, WeightsAreRootThreeAndTwoOfTheUnit) {
   for (const ChamferWeights& w : {kShortChamfer, kLongChamfer}) {
     const double unit = w.counts_per_unit;

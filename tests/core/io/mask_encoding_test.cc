@@ -11,6 +11,7 @@
 #include "core/mask/mask_converter.h"
 #include "tests/core/io/handmade_exr.h"
 #include "tests/core/io/test_volumes.h"
+#include "tests/support/volume_headers.h"
 
 namespace bccskel {
 namespace {
@@ -86,7 +87,7 @@ TEST(MaskEncoding, DecodesToTheConversionOfItsVoxels) {
       const Voxels voxels = RandomVoxels(grid, 0.4);
       const VoxelPoints points = grid.nx % 2 == 0 ? VoxelPoints::kSixteen : VoxelPoints::kTwo;
       const ConvertedMask expected = Converted(voxels, adjacency, points);
-      const auto header = MakeMaskHeader({grid, adjacency, points}, {});
+      const auto header = test::MakeMaskHeader({grid, adjacency, points}, {});
       ASSERT_TRUE(header.ok()) << header.status();
       for (const size_t chunk_bytes : {1U, 3U, 1000U}) {
         const auto decoded = Decode(*header, Packed(voxels), chunk_bytes);
@@ -101,11 +102,11 @@ TEST(MaskEncoding, DecodesToTheConversionOfItsVoxels) {
 TEST(MaskEncoding, PlacesTheLatticeWhereTheVoxelsAre) {
   MaskGrid grid = {.nx = 4, .ny = 4, .nz = 4};
   grid.placement = {.spacing = {2, 3, 5}, .origin = {10, 20, 30}};
-  const auto header = MakeMaskHeader({grid, MaskAdjacency::k26}, {});
+  const auto header = test::MakeMaskHeader({grid, MaskAdjacency::k26}, {});
   EXPECT_EQ(header->extent, (LatticeExtent{5, 5, 5}));
   EXPECT_EQ(header->placement.ToWorld(1, 1, 1), (WorldPoint{10, 20, 30}));
   EXPECT_EQ(header->placement.ToWorld(3, 3, 3), (WorldPoint{12, 23, 35}));
-  const auto fine = MakeMaskHeader({grid, MaskAdjacency::k26, VoxelPoints::kSixteen}, {});
+  const auto fine = test::MakeMaskHeader({grid, MaskAdjacency::k26, VoxelPoints::kSixteen}, {});
   EXPECT_EQ(fine->extent, (LatticeExtent{9, 9, 9}));
   // The center of voxel (0, 0, 0) is the middle of its eight refined voxels.
   EXPECT_EQ(fine->placement.ToWorld(2, 2, 2), (WorldPoint{10, 20, 30}));
@@ -114,7 +115,7 @@ TEST(MaskEncoding, PlacesTheLatticeWhereTheVoxelsAre) {
 
 TEST(MaskEncoding, RefusesTooFewAndTooManyBytes) {
   const Voxels voxels = RandomVoxels({.nx = 5, .ny = 5, .nz = 5}, 0.5);
-  const auto header = MakeMaskHeader({voxels.grid, MaskAdjacency::k26}, {});
+  const auto header = test::MakeMaskHeader({voxels.grid, MaskAdjacency::k26}, {});
   const std::string packed = Packed(voxels);  // 125 bits: 16 bytes
   for (size_t length : {size_t{0}, size_t{1}, packed.size() - 1}) {
     const auto decoded = Decode(*header, packed.substr(0, length), 100);
@@ -130,7 +131,8 @@ TEST(MaskEncoding, RefusesBitsPastTheLastVoxel) {
   const Voxels voxels = RandomVoxels({.nx = 5, .ny = 5, .nz = 5}, 0.5);
   std::string packed = Packed(voxels);
   packed.back() = static_cast<char>(packed.back() | 1 << 5);
-  const auto decoded = Decode(*MakeMaskHeader({voxels.grid, MaskAdjacency::k26}, {}), packed, 100);
+  const auto decoded =
+      Decode(*test::MakeMaskHeader({voxels.grid, MaskAdjacency::k26}, {}), packed, 100);
   EXPECT_EQ(decoded.status().code(), absl::StatusCode::kInvalidArgument);
   EXPECT_THAT(std::string(decoded.status().message()), HasSubstr("past the last voxel"));
 }
@@ -139,9 +141,9 @@ TEST(MaskEncoding, HoldsTheNumberOfBricksThatWasDeclared) {
   const Voxels voxels = RandomVoxels({.nx = 40, .ny = 40, .nz = 40}, 0.5);
   const MaskDeclaration mask = {voxels.grid, MaskAdjacency::k26};
   const uint64_t bricks = Converted(voxels, mask.adjacency).volume.brick_count();
-  const auto enough = MakeMaskHeader(mask, {}, VolumeCompression::kNone, bricks);
+  const auto enough = test::MakeMaskHeader(mask, {}, VolumeCompression::kNone, bricks);
   EXPECT_TRUE(Decode(*enough, Packed(voxels), 100).ok());
-  const auto fewer = MakeMaskHeader(mask, {}, VolumeCompression::kNone, bricks - 1);
+  const auto fewer = test::MakeMaskHeader(mask, {}, VolumeCompression::kNone, bricks - 1);
   EXPECT_EQ(Decode(*fewer, Packed(voxels), 100).status().code(),
             absl::StatusCode::kResourceExhausted);
 }
@@ -149,7 +151,7 @@ TEST(MaskEncoding, HoldsTheNumberOfBricksThatWasDeclared) {
 TEST(MaskHeader, ChecksGridAndLimits) {
   const auto code = [](int32_t nx, const VolumeLimits& limits) {
     const MaskGrid grid = {.nx = nx, .ny = 10, .nz = 10};
-    return MakeMaskHeader({grid, MaskAdjacency::k26}, limits).status().code();
+    return test::MakeMaskHeader({grid, MaskAdjacency::k26}, limits).status().code();
   };
   EXPECT_EQ(code(10, {}), absl::StatusCode::kOk);
   EXPECT_EQ(code(0, {}), absl::StatusCode::kInvalidArgument);

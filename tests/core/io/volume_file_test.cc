@@ -115,12 +115,13 @@ TEST_F(VolumeFile, IsRecognizedByItsBytesNotItsName) {
   EXPECT_EQ(*ReadVolumeFile(Path("v.exr")), volume);
 }
 
-TEST_F(VolumeFile, ShowsItsHeader) {
+TEST_F(VolumeFile, HasTheHeaderOfItsVolume) {
   const Volume volume = RandomVolume({20, 21, 22}, 5);
   ASSERT_TRUE(WriteVolumeFile(Path("v.exr"), volume).ok());
-  const auto header = InspectVolumeFile(Path("v.exr"));
+  const std::string bytes = Get("v.exr");
+  EXPECT_EQ(*SniffVolumeEncoding(BytesOf(bytes)), VolumeEncoding::kOpenExr);
+  const auto header = ScanVolumeHeader(VolumeEncoding::kOpenExr, BytesOf(bytes), {});
   ASSERT_TRUE(header.ok()) << header.status();
-  EXPECT_EQ(header->encoding, VolumeEncoding::kOpenExr);
   EXPECT_EQ(header->compression, VolumeCompression::kZip);
   EXPECT_EQ(header->extent, volume.extent());
   EXPECT_EQ(header->placement, volume.placement());

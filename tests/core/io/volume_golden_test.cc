@@ -11,6 +11,7 @@
 #include "core/io/volume_decoder.h"
 #include "core/io/volume_digest.h"
 #include "core/io/volume_encoder.h"
+#include "tests/support/volume_headers.h"
 
 namespace bccskel::volume_golden {
 namespace {
@@ -63,7 +64,7 @@ TEST_P(VolumeGolden, IsReadAsTheSameVolume) {
   const std::string bytes = FromFile();
   const auto header =
       GetParam().encoding == VolumeEncoding::kRawPlanes
-          ? MakePlanesHeader(kExtent, kPlacement, {})
+          ? test::MakePlanesHeader(kExtent, kPlacement, {})
           : ScanVolumeHeader(GetParam().encoding, std::as_bytes(std::span(bytes)), {});
   ASSERT_TRUE(header.ok()) << header.status();
   const auto decoder = MakeVolumeDecoder(*header, {});

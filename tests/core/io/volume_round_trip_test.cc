@@ -8,6 +8,7 @@
 #include "core/io/volume_encoder.h"
 #include "tests/core/io/test_volumes.h"
 #include "tests/support/contexts.h"
+#include "tests/support/volume_headers.h"
 
 namespace bccskel::volume_round_trip {
 namespace {
@@ -36,7 +37,8 @@ class VolumeRoundTrip : public testing::TestWithParam<Coding> {
 
   absl::StatusOr<VolumeHeader> HeaderOf(const Volume& volume, const std::string& bytes) {
     if (GetParam().encoding == VolumeEncoding::kRawPlanes) {
-      return MakePlanesHeader(volume.extent(), volume.placement(), {}, GetParam().compression);
+      return test::MakePlanesHeader(volume.extent(), volume.placement(), {},
+                                    GetParam().compression);
     }
     return ScanVolumeHeader(GetParam().encoding, BytesOf(bytes), {});
   }

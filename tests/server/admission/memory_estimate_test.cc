@@ -4,11 +4,13 @@
 
 #include <limits>
 
+#include "tests/support/volume_headers.h"
+
 namespace bccskel::server {
 namespace {
 
 VolumeHeader PlanesOf(LatticeExtent extent) {
-  return *MakePlanesHeader(extent, Placement(), VolumeLimits());
+  return *test::MakePlanesHeader(extent, Placement(), VolumeLimits());
 }
 
 TEST(MemoryEstimate, GrowsWithTheDeclaredBox) {

@@ -37,8 +37,14 @@ TEST(CallErrorTest, KeepsItsDetails) {
 TEST(CallErrorTest, IsNotFoundInOtherErrors) {
   EXPECT_EQ(ReasonOf(absl::UnavailableError("queue full")), std::nullopt);
   EXPECT_EQ(ReasonOf(absl::OkStatus()), std::nullopt);
-  EXPECT_EQ(CommittedSizeOf(absl::OutOfRangeError("no")), std::nullopt);
-  EXPECT_EQ(CommittedSizeOf(WrongOffset("no", 7)), 7u);
+  EXPECT_EQ(DetailsOf(absl::OutOfRangeError("no")).key, "");
+  EXPECT_EQ(NeededBytesOf(WrongOffset("no", 7)), std::nullopt);
+}
+
+TEST(CallErrorTest, TellsACallerWhereToResume) {
+  const ErrorDetails details = DetailsOf(WrongOffset("no", 7));
+  EXPECT_EQ(details.key, "committed_size");
+  EXPECT_EQ(details.value, "7");
 }
 
 TEST(CallErrorTest, IsNotFoundInADamagedPayload) {

@@ -14,6 +14,7 @@
 #include "core/io/volume_encoder.h"
 #include "server/errors/call_error.h"
 #include "server/jobs/job_pool.h"
+#include "tests/support/volume_headers.h"
 
 namespace bccskel::server {
 namespace {
@@ -81,8 +82,8 @@ Encoded Encode(const Volume& volume, const VolumeEncoding& encoding,
   encoded.bytes = *EncodeVolume(volume, {.encoding = encoding, .compression = compression});
   encoded.request.size_bytes = encoded.bytes.size();
   if (encoding == VolumeEncoding::kRawPlanes) {
-    encoded.request.header = *MakePlanesHeader(volume.extent(), volume.placement(), VolumeLimits(),
-                                               compression, volume.brick_count());
+    encoded.request.header = *test::MakePlanesHeader(
+        volume.extent(), volume.placement(), VolumeLimits(), compression, volume.brick_count());
   } else {
     encoded.request.header =
         *ScanVolumeHeader(encoding, std::as_bytes(std::span(encoded.bytes)), VolumeLimits());

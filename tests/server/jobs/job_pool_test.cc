@@ -20,6 +20,7 @@
 #include "core/io/volume_encoder.h"
 #include "server/admission/memory_estimate.h"
 #include "server/errors/call_error.h"
+#include "tests/support/volume_headers.h"
 
 namespace bccskel::server::job_pool {
 namespace {
@@ -72,9 +73,9 @@ struct Encoded {
 Encoded EncodeTorus(uint64_t points) {
   const Volume torus = *GenerateShape(Shape::kTorus, {.points = points});
   Encoded encoded;
-  encoded.bytes = *EncodePlanes(torus);
-  encoded.request.header = *MakePlanesHeader(torus.extent(), torus.placement(), VolumeLimits(),
-                                             VolumeCompression::kNone, torus.brick_count());
+  encoded.bytes = *EncodeVolume(torus, {VolumeEncoding::kRawPlanes, VolumeCompression::kNone});
+  encoded.request.header = *test::MakePlanesHeader(torus.extent(), torus.placement(), {},
+                                                   VolumeCompression::kNone, torus.brick_count());
   encoded.request.size_bytes = encoded.bytes.size();
   return encoded;
 }
