@@ -11,18 +11,6 @@
 namespace bccskel {
 namespace {
 
-// Edge of a cell along each axis, in voxels. A cell holds two points.
-std::array<double, 3> CellEdges(const MaskGrid& grid, const MaskSamplingOptions& options) {
-  const std::array<double, 3> spacing = VoxelPlacement(grid).spacing;
-  const double voxels = 2 / options.points_per_voxel;
-  if (options.cells == CellShape::kVoxel) {
-    const double edge = std::cbrt(voxels);
-    return {edge, edge, edge};
-  }
-  const double edge = std::cbrt(voxels * spacing[0] * spacing[1] * spacing[2]);
-  return {edge / spacing[0], edge / spacing[1], edge / spacing[2]};
-}
-
 bool TestVoxel(const MaskRow& row, int32_t x) {
   const int32_t word = x >> 6;
   if (word < row.first_word || word >= row.end_word()) return false;
@@ -38,21 +26,22 @@ absl::StatusOr<MaskLattice> LatticeFor(const MaskGrid& grid, const MaskSamplingO
                                                       options.points_per_voxel, kMinPointsPerVoxel,
                                                       kMaxPointsPerVoxel));
   }
-  const std::array<double, 3> edges = CellEdges(grid, options);
+  // Of a cell, in voxels along each axis. A cell holds two points.
+  const double edge = std::cbrt(2 / options.points_per_voxel);
   const std::array<int32_t, 3> voxels = {grid.nx, grid.ny, grid.nz};
   std::array<int32_t, 3> cells = {};
   MaskLattice lattice;
   lattice.placement = VoxelPlacement(grid);
   for (size_t axis = 0; axis < 3; ++axis) {
-    const double wanted = std::min(std::ceil(voxels[axis] / edges[axis]), 2.0 * kMaxExtentCells);
+    const double wanted = std::min(std::ceil(voxels[axis] / edge), 2.0 * kMaxExtentCells);
     cells[axis] = std::max(static_cast<int32_t>(wanted), 1);
-    lattice.step[axis] = edges[axis] / 2;
+    lattice.step[axis] = edge / 2;
     // Equal margins before the first point and after the last.
     lattice.first[axis] = (voxels[axis] - 1 - lattice.step[axis] * (2 * cells[axis] - 1)) / 2;
   }
   lattice.placement.origin =
       lattice.placement.ToWorld(2 * lattice.first[0], 2 * lattice.first[1], 2 * lattice.first[2]);
-  for (size_t axis = 0; axis < 3; ++axis) lattice.placement.spacing[axis] *= edges[axis];
+  for (size_t axis = 0; axis < 3; ++axis) lattice.placement.spacing[axis] *= edge;
   lattice.extent = {cells[0], cells[1], cells[2]};
   BCCSKEL_RETURN_IF_ERROR(CheckGrid(lattice.extent, lattice.placement));
   return lattice;

@@ -15,12 +15,6 @@
 
 namespace bccskel {
 
-// The shape of the lattice cells that sample a mask.
-enum class CellShape : uint8_t {
-  kVoxel,  // equally long along each axis, in voxels
-  kCube,   // equally long along each axis, in world units
-};
-
 // Weights of the voxels around a point.
 enum class MaskWeights : uint8_t {
   kNearest,    // the voxel that holds the point
@@ -33,7 +27,6 @@ inline constexpr double kMaxPointsPerVoxel = 1000;
 struct MaskSamplingOptions {
   MaskWeights weights = MaskWeights::kTrilinear;
   double points_per_voxel = 2;  // kMinPointsPerVoxel to kMaxPointsPerVoxel
-  CellShape cells = CellShape::kVoxel;
 };
 
 // The lattice that samples a mask: coordinate p of an axis lies at first + step * p, in voxels.

@@ -63,15 +63,14 @@ std::optional<MaskGrid> GridOfState(const py::object& state) {
   return MaskGrid{nx, ny, nz, {spacing, origin, direction}};
 }
 
-// Adjacency, points; of a sampling: weights, points per voxel, cells.
+// Adjacency, points; of a sampling: weights, points per voxel, and 0, which older versions read.
 using SamplingState = std::tuple<int, double, int>;
 using MaskState = std::tuple<int, int, std::optional<SamplingState>>;
 
 MaskState StateOfMask(const MaskOptions& mask) {
   std::optional<SamplingState> sampling;
   if (mask.sampling.has_value()) {
-    sampling = {static_cast<int>(mask.sampling->weights), mask.sampling->points_per_voxel,
-                static_cast<int>(mask.sampling->cells)};
+    sampling = {static_cast<int>(mask.sampling->weights), mask.sampling->points_per_voxel, 0};
   }
   return {static_cast<int>(mask.adjacency), static_cast<int>(mask.points), sampling};
 }
@@ -81,8 +80,8 @@ MaskOptions MaskOfState(const MaskState& state) {
   MaskOptions mask = {.adjacency = static_cast<MaskAdjacency>(adjacency),
                       .points = static_cast<VoxelPoints>(points)};
   if (sampling.has_value()) {
-    const auto& [weights, per_voxel, cells] = *sampling;
-    mask.sampling = {static_cast<MaskWeights>(weights), per_voxel, static_cast<CellShape>(cells)};
+    const auto& [weights, per_voxel, unused] = *sampling;
+    mask.sampling = {static_cast<MaskWeights>(weights), per_voxel};
   }
   return mask;
 }
