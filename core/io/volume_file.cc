@@ -5,13 +5,10 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
-#include <cstdio>
 #include <memory>
 #include <span>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "absl/strings/str_format.h"
@@ -19,7 +16,7 @@
 #include "core/exec/worker_team.h"
 #include "core/io/brick_collector.h"
 #include "core/io/bricks_decoder.h"
-#include "core/io/byte_sink.h"
+#include "core/io/file_replacement.h"
 #include "core/io/volume_decoder.h"
 #include "core/io/volume_encoder.h"
 
@@ -45,8 +42,6 @@ class FileDescriptor {
   }
   int get() const { return descriptor_; }
   bool is_open() const { return descriptor_ >= 0; }
-  // True when the system has taken everything written.
-  bool Close() { return close(std::exchange(descriptor_, -1)) == 0; }
 
  private:
   int descriptor_;
@@ -65,64 +60,6 @@ absl::StatusOr<std::span<const std::byte>> ReadSome(const FileDescriptor& file,
   }
   return buffer.first(filled);
 }
-
-class FileSink final : public ByteSink {
- public:
-  explicit FileSink(int descriptor) : descriptor_(descriptor) {}
-
-  absl::Status WriteAt(uint64_t offset, std::span<const std::byte> bytes) override {
-    while (!bytes.empty()) {
-      const ssize_t count =
-          pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
-      if (count < 0 && errno == EINTR) continue;
-      if (count < 0) return SystemError("cannot write");
-      offset += static_cast<uint64_t>(count);
-      bytes = bytes.subspan(static_cast<size_t>(count));
-    }
-    return absl::OkStatus();
-  }
-
- private:
-  int descriptor_;
-};
-
-// A file beside `path` that takes its place or disappears. mkstemp() would ignore the umask.
-class ReplacementFile {
- public:
-  explicit ReplacementFile(const std::string& path)
-      : path_(path),
-        temporary_(absl::StrFormat("%s.tmp.%d.%d", path, getpid(), NextNumber())),
-        file_(open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666)) {}
-  ReplacementFile(const ReplacementFile&) = delete;
-  ReplacementFile& operator=(const ReplacementFile&) = delete;
-  ~ReplacementFile() {
-    if (created_ && !committed_) unlink(temporary_.c_str());
-  }
-
-  absl::Status CheckOpen() const {
-    return created_ ? absl::OkStatus() : SystemError("cannot create");
-  }
-  int descriptor() const { return file_.get(); }
-
-  absl::Status Commit() {
-    if (fsync(file_.get()) != 0 || !file_.Close()) return SystemError("cannot write");
-    if (rename(temporary_.c_str(), path_.c_str()) != 0) return SystemError("cannot rename");
-    committed_ = true;
-    return absl::OkStatus();
-  }
-
- private:
-  static int NextNumber() {
-    static std::atomic<int> number = 0;
-    return number.fetch_add(1);
-  }
-
-  std::string path_;
-  std::string temporary_;
-  FileDescriptor file_;
-  bool created_ = file_.is_open();
-  bool committed_ = false;
-};
 
 absl::StatusOr<VolumeEncoding> EncodingOfName(std::string_view path) {
   if (path.ends_with(".exr")) return VolumeEncoding::kOpenExr;
@@ -204,11 +141,10 @@ absl::StatusOr<Volume> DecodeFile(const FileDescriptor& file, const LayerPart& s
 absl::Status ReplaceFile(const std::string& path, const Volume& volume,
                          const WriteVolumeOptions& options, const exec::Context& context) {
   BCCSKEL_ASSIGN_OR_RETURN(const EncodeVolumeOptions encoding, EncodingFor(path, options));
-  ReplacementFile replacement(path);
-  BCCSKEL_RETURN_IF_ERROR(replacement.CheckOpen());
-  FileSink sink(replacement.descriptor());
-  BCCSKEL_RETURN_IF_ERROR(EncodeVolumeTo(volume, encoding, sink, context));
-  return replacement.Commit();
+  BCCSKEL_ASSIGN_OR_RETURN(const std::unique_ptr<FileReplacement> file,
+                           FileReplacement::Begin(path));
+  BCCSKEL_RETURN_IF_ERROR(EncodeVolumeTo(volume, encoding, *file, context));
+  return file->Commit();
 }
 
 }  // namespace

@@ -175,6 +175,21 @@ TEST_F(VolumeFile, ReplacesTheOldFileAndHonorsTheUmask) {
   EXPECT_EQ(status.st_mode & 0777, 0640u);
 }
 
+TEST_F(VolumeFile, ALinkStaysALink) {
+  Put("v.exr", "old");
+  fs::create_symlink("v.exr", Path("link.exr"));
+  fs::create_symlink("/dev/null", Path("null.exr"));
+  const Volume volume = FullVolume({2, 2, 2});
+  for (const char* link : {"link.exr", "null.exr"}) {
+    const absl::Status written = WriteVolumeFile(Path(link), volume);
+    ASSERT_TRUE(written.ok()) << written;
+    EXPECT_TRUE(fs::is_symlink(Path(link))) << link;
+  }
+  EXPECT_EQ(*ReadVolumeFile(Path("v.exr")), volume);
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+  EXPECT_EQ(FilesInFolder(), 3u);
+}
+
 // What a program prints on standard output, and its exit status.
 std::pair<std::string, int> RunProgram(const std::string& command) {
   std::string output;

@@ -1,0 +1,112 @@
+#include "core/io/file_replacement.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "absl/strings/str_format.h"
+
+namespace bccskel {
+namespace {
+
+absl::Status SystemStatus(int error) {
+  return absl::Status(absl::ErrnoToStatusCode(error), std::generic_category().message(error));
+}
+
+absl::Status CreationStatus(int error, const std::string& path) {
+  const std::string folder = path.substr(0, path.rfind('/') + 1);
+  std::error_code ignored;
+  if (error != ENOENT || folder.empty() || std::filesystem::exists(folder, ignored)) {
+    return SystemStatus(error);
+  }
+  return absl::NotFoundError(absl::StrFormat("the folder %s does not exist; create it first",
+                                             folder.substr(0, folder.size() - 1)));
+}
+
+bool IsFolder(const std::string& path) {
+  struct stat about;
+  return ::stat(path.c_str(), &about) == 0 && S_ISDIR(about.st_mode);
+}
+
+bool IsSpecialFile(const std::string& path) {
+  struct stat about;
+  return ::stat(path.c_str(), &about) == 0 && !S_ISREG(about.st_mode) && !S_ISDIR(about.st_mode);
+}
+
+// Follows links, so that a link stays and its target is replaced.
+std::string BehindLinks(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_symlink(path, error)) return path;
+  const std::filesystem::path behind = std::filesystem::canonical(path, error);
+  return error ? path : behind.string();
+}
+
+// Of each replacement another one.
+std::string DraftOf(const std::string& place) {
+  static std::atomic<int> number = 0;
+  return absl::StrFormat("%s.part%d.%d", place, ::getpid(), number.fetch_add(1));
+}
+
+}  // namespace
+
+FileReplacement::FileReplacement(std::string place, std::string draft, int descriptor)
+    : place_(std::move(place)), draft_(std::move(draft)), descriptor_(descriptor) {}
+
+absl::StatusOr<std::unique_ptr<FileReplacement>> FileReplacement::Begin(const std::string& path) {
+  if (IsFolder(path)) return SystemStatus(EISDIR);
+  const bool special = IsSpecialFile(path);
+  const std::string place = special ? path : BehindLinks(path);
+  const std::string draft = special ? std::string() : DraftOf(place);
+  // mkstemp() would ignore the umask.
+  const int descriptor = special
+                             ? ::open(path.c_str(), O_WRONLY | O_CLOEXEC)
+                             : ::open(draft.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (descriptor < 0) return CreationStatus(errno, path);
+  return std::unique_ptr<FileReplacement>(new FileReplacement(place, draft, descriptor));
+}
+
+absl::Status FileReplacement::Check(const std::string& path) {
+  if (!IsSpecialFile(path)) return Begin(path).status();
+  // Opening a pipe would wait for its reader.
+  return ::access(path.c_str(), W_OK) == 0 ? absl::OkStatus() : SystemStatus(errno);
+}
+
+FileReplacement::~FileReplacement() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+  if (!draft_.empty()) ::unlink(draft_.c_str());
+}
+
+absl::Status FileReplacement::WriteAt(uint64_t offset, std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const bool in_order = offset == end_;  // as pipes take them
+    const ssize_t count =
+        in_order ? ::write(descriptor_, bytes.data(), bytes.size())
+                 : ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return SystemStatus(errno);
+    offset += static_cast<uint64_t>(count);
+    if (in_order) end_ = offset;
+    bytes = bytes.subspan(static_cast<size_t>(count));
+  }
+  return absl::OkStatus();
+}
+
+absl::Status FileReplacement::Commit(const std::stop_token& stop) {
+  const bool synced = draft_.empty() || ::fsync(descriptor_) == 0;
+  // Some file systems report a full disk only here.
+  if (!synced || ::close(std::exchange(descriptor_, -1)) != 0) return SystemStatus(errno);
+  if (stop.stop_requested()) return absl::CancelledError("not written");
+  if (draft_.empty()) return absl::OkStatus();
+  if (std::rename(draft_.c_str(), place_.c_str()) != 0) return SystemStatus(errno);
+  draft_.clear();
+  return absl::OkStatus();
+}
+
+}  // namespace bccskel
