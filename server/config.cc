@@ -10,8 +10,8 @@
 #include "absl/strings/str_join.h"
 #include "core/exec/machine_memory.h"
 #include "core/version/version.h"
+#include "proto/address/address.h"
 #include "server/identity/token_table.h"
-#include "server/settings/values.h"
 #include "server/store/job_store.h"
 
 namespace bccskel::server {

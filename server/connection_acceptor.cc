@@ -19,6 +19,7 @@
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"
+#include "proto/address/address.h"
 #include "server/logging/json_log.h"
 #include "server/settings/values.h"
 

@@ -17,6 +17,7 @@
 #include "core/exec/status_macros.h"
 #include "core/pipeline/algorithm_version.h"
 #include "core/version/version.h"
+#include "proto/address/address.h"
 #include "proto/wire/duration.h"
 #include "server/admission/memory_estimate.h"
 #include "server/calls/call_gate.h"
@@ -31,7 +32,6 @@
 #include "server/listener.h"
 #include "server/logging/json_log.h"
 #include "server/metrics/call_meter.h"
-#include "server/settings/values.h"
 
 namespace bccskel::server {
 namespace {

@@ -21,9 +21,9 @@
 #include "absl/strings/str_cat.h"
 #include "core/pipeline/algorithm_version.h"
 #include "core/version/version.h"
+#include "proto/address/address.h"
 #include "server/calls/status_mapping.h"
 #include "server/errors/call_error.h"
-#include "server/settings/values.h"
 
 namespace bccskel::server {
 namespace {

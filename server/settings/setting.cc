@@ -11,6 +11,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "core/exec/status_macros.h"
+#include "proto/address/address.h"
 #include "server/settings/values.h"
 
 namespace bccskel::server {

@@ -8,11 +8,10 @@
 #include "absl/strings/match.h"
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
+#include "proto/address/address.h"
 
 namespace bccskel::server {
 namespace {
-
-constexpr char kUnixPrefix[] = "unix:";
 
 absl::Status Wrong(const std::string& text, const std::string& must) {
   return absl::InvalidArgumentError(absl::StrCat(text, ": must be ", must));
@@ -53,32 +52,10 @@ absl::StatusOr<uint64_t> ParseSize(const std::string& text, uint64_t low) {
                                   " bytes, with or without a unit, such as 256MB or 8GB"));
 }
 
-absl::Status CheckAddress(const std::string& address) {
-  if (absl::StartsWith(address, kUnixPrefix)) {
-    if (address != kUnixPrefix) return absl::OkStatus();
-    return absl::InvalidArgumentError("unix: names no path");
-  }
-  const std::string host = HostOf(address);
-  const std::string port = host.size() < address.size() ? address.substr(host.size() + 1) : "";
-  constexpr int kMaxPort = 65535;
-  if (!host.empty() && ParseNumber(port, 0, kMaxPort).ok()) return absl::OkStatus();
-  return absl::InvalidArgumentError(
-      absl::StrCat(address, " is neither HOST:PORT, with a port of 0 to 65535, nor unix:PATH"));
-}
-
-std::string HostOf(const std::string& address) { return address.substr(0, address.rfind(':')); }
-
 std::string SocketPathOf(const std::string& address) {
   if (!absl::StartsWith(address, kUnixPrefix)) return std::string();
   const std::string path = address.substr(sizeof(kUnixPrefix) - 1);
   return absl::StartsWith(path, "//") ? path.substr(2) : path;
-}
-
-bool IsOfThisMachine(const std::string& address) {
-  if (absl::StartsWith(address, kUnixPrefix)) return true;
-  const std::string host = HostOf(address);
-  const bool number = host.find_first_not_of("0123456789.") == std::string::npos;
-  return host == "localhost" || host == "[::1]" || (number && absl::StartsWith(host, "127."));
 }
 
 }  // namespace bccskel::server

@@ -1,0 +1,48 @@
+#include "proto/address/address.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "absl/strings/ascii.h"
+#include "absl/strings/str_cat.h"
+
+namespace bccskel {
+namespace {
+
+constexpr char kDigits[] = "0123456789";
+
+bool IsPort(const std::string& text) {
+  const bool digits = text.find_first_not_of(kDigits) == std::string::npos;
+  return digits && !text.empty() && text.size() <= 5 && std::stoi(text) <= 65535;
+}
+
+bool IsAddress(const std::string& address) {
+  if (address.starts_with(kUnixPrefix)) {
+    return address != kUnixPrefix && address.find('\0') == std::string::npos;
+  }
+  const std::string host = HostOf(address);
+  const bool unclear = std::ranges::any_of(
+      host, [](unsigned char c) { return absl::ascii_isspace(c) || absl::ascii_iscntrl(c); });
+  return !host.empty() && !unclear && host.size() < address.size() &&
+         IsPort(address.substr(host.size() + 1)) && !address.starts_with("http://") &&
+         !address.starts_with("https://");
+}
+
+}  // namespace
+
+absl::Status CheckAddress(const std::string& address) {
+  if (IsAddress(address)) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrCat(
+      "'", address, "' is neither HOST:PORT, with a port of 0 to 65535, nor unix:PATH"));
+}
+
+std::string HostOf(const std::string& address) { return address.substr(0, address.rfind(':')); }
+
+bool IsOfThisMachine(const std::string& address) {
+  if (address.starts_with(kUnixPrefix)) return true;
+  const std::string host = HostOf(address);
+  const bool number = host.find_first_not_of("0123456789.") == std::string::npos;
+  return host == "localhost" || host == "[::1]" || (number && host.starts_with("127."));
+}
+
+}  // namespace bccskel
