@@ -12,6 +12,7 @@
 #include "client/grpc_attempt.h"
 #include "client/grpc_durable_stub.h"
 #include "client/grpc_status.h"
+#include "client/job_messages.h"
 #include "client/labels_call.h"
 #include "client/upload_call.h"
 #include "client/volume_declaration.h"
@@ -32,9 +33,7 @@ v1::SkeletonizeRequest ConfigRequest(const EncodedVolume& volume, const CallOpti
   v1::SkeletonizeConfig& config = *request.mutable_config();
   *config.mutable_volume() = DeclarationOf(volume);
   *config.mutable_options() = wire::ToMessage(options.skeletonize);
-  config.set_thin_volume_return(options.thin_volume == ThinVolume::kReturn
-                                    ? v1::THIN_VOLUME_RETURN_BRICKS
-                                    : v1::THIN_VOLUME_RETURN_OMIT);
+  config.set_thin_volume_return(ToMessage(options.thin_volume));
   config.set_shell_points_return(options.on_shell_points ? v1::SHELL_POINTS_RETURN_ALL
                                                          : v1::SHELL_POINTS_RETURN_OMIT);
   config.set_threads(options.threads);

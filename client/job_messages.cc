@@ -3,7 +3,9 @@
 #include <google/protobuf/timestamp.pb.h>
 
 #include <chrono>
+#include <utility>
 
+#include "proto/wire/enumerators.h"
 #include "proto/wire/error_details.h"
 #include "proto/wire/options.h"
 #include "proto/wire/result.h"
@@ -11,35 +13,20 @@
 namespace bccskel::client {
 namespace {
 
-JobState StateOf(v1::JobState state) {
-  switch (state) {
-    case v1::JOB_STATE_RECEIVING:
-      return JobState::kReceiving;
-    case v1::JOB_STATE_QUEUED:
-      return JobState::kQueued;
-    case v1::JOB_STATE_RUNNING:
-      return JobState::kRunning;
-    case v1::JOB_STATE_SUCCEEDED:
-      return JobState::kSucceeded;
-    case v1::JOB_STATE_FAILED:
-      return JobState::kFailed;
-    case v1::JOB_STATE_CANCELLED:
-      return JobState::kCancelled;
-    default:
-      return JobState::kUnknown;
-  }
-}
+constexpr std::pair<v1::JobState, JobState> kStates[] = {
+    {v1::JOB_STATE_RECEIVING, JobState::kReceiving},
+    {v1::JOB_STATE_QUEUED, JobState::kQueued},
+    {v1::JOB_STATE_RUNNING, JobState::kRunning},
+    {v1::JOB_STATE_SUCCEEDED, JobState::kSucceeded},
+    {v1::JOB_STATE_FAILED, JobState::kFailed},
+    {v1::JOB_STATE_CANCELLED, JobState::kCancelled}};
+constexpr std::pair<v1::JobPriority, JobPriority> kPriorities[] = {
+    {v1::JOB_PRIORITY_LOW, JobPriority::kLow},
+    {v1::JOB_PRIORITY_NORMAL, JobPriority::kNormal},
+    {v1::JOB_PRIORITY_HIGH, JobPriority::kHigh}};
 
-v1::JobPriority PriorityMessage(JobPriority priority) {
-  switch (priority) {
-    case JobPriority::kLow:
-      return v1::JOB_PRIORITY_LOW;
-    case JobPriority::kNormal:
-      return v1::JOB_PRIORITY_NORMAL;
-    case JobPriority::kHigh:
-      return v1::JOB_PRIORITY_HIGH;
-  }
-  return v1::JOB_PRIORITY_UNSPECIFIED;  // not reached: the enumerators are exhausted above
+JobState StateOf(v1::JobState state) {
+  return wire::MeaningOf(state, kStates).value_or(JobState::kUnknown);
 }
 
 Time TimeOf(const google::protobuf::Timestamp& message) {
@@ -50,15 +37,18 @@ Time TimeOf(const google::protobuf::Timestamp& message) {
 
 }  // namespace
 
+v1::ThinVolumeReturn ToMessage(ThinVolume thin_volume) {
+  return thin_volume == ThinVolume::kReturn ? v1::THIN_VOLUME_RETURN_BRICKS
+                                            : v1::THIN_VOLUME_RETURN_OMIT;
+}
+
 v1::CreateJobRequest ToMessage(const NewJob& job) {
   v1::CreateJobRequest message;
   message.set_request_id(job.request_id);
   message.set_volume(job.volume);
   *message.mutable_options() = wire::ToMessage(job.options);
-  message.set_thin_volume_return(job.thin_volume == ThinVolume::kReturn
-                                     ? v1::THIN_VOLUME_RETURN_BRICKS
-                                     : v1::THIN_VOLUME_RETURN_OMIT);
-  message.set_priority(PriorityMessage(job.priority));
+  message.set_thin_volume_return(ToMessage(job.thin_volume));
+  message.set_priority(wire::EnumeratorOf(job.priority, kPriorities));
   message.set_threads(job.threads);
   return message;
 }

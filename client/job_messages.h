@@ -8,7 +8,8 @@
 
 namespace bccskel::client {
 
-// Convert reports about jobs to and from messages.
+// Convert jobs and reports about them to and from messages.
+v1::ThinVolumeReturn ToMessage(ThinVolume thin_volume);
 v1::CreateJobRequest ToMessage(const NewJob& job);
 DurableJob FromMessage(const v1::Job& message);
 // nullopt for heartbeats and for events that this version does not know.

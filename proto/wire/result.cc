@@ -1,9 +1,13 @@
 #include "proto/wire/result.h"
 
+#include <optional>
+#include <utility>
+
 #include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"
 #include "proto/wire/duration.h"
+#include "proto/wire/enumerators.h"
 #include "proto/wire/options.h"
 #include "proto/wire/placement.h"
 
@@ -50,50 +54,27 @@ StageTimings FromMessage(const v1::StageTimings& message) {
           .total = NanosecondsOf(message.total())};
 }
 
-v1::PreparingStepKind ToMessage(PreparingStepKind kind) {
-  switch (kind) {
-    case PreparingStepKind::kDenoise:
-      return v1::PREPARING_STEP_KIND_DENOISE;
-    case PreparingStepKind::kFillCavities:
-      return v1::PREPARING_STEP_KIND_FILL_CAVITIES;
-    case PreparingStepKind::kFillTunnels:
-      return v1::PREPARING_STEP_KIND_FILL_TUNNELS;
-    case PreparingStepKind::kDropSmallComponents:
-      return v1::PREPARING_STEP_KIND_DROP_SMALL_COMPONENTS;
-    case PreparingStepKind::kKeepLargestComponent:
-      return v1::PREPARING_STEP_KIND_KEEP_LARGEST_COMPONENT;
-  }
-  return v1::PREPARING_STEP_KIND_UNSPECIFIED;
-}
-
-absl::StatusOr<PreparingStepKind> FromMessage(v1::PreparingStepKind kind) {
-  switch (kind) {
-    case v1::PREPARING_STEP_KIND_DENOISE:
-      return PreparingStepKind::kDenoise;
-    case v1::PREPARING_STEP_KIND_FILL_CAVITIES:
-      return PreparingStepKind::kFillCavities;
-    case v1::PREPARING_STEP_KIND_FILL_TUNNELS:
-      return PreparingStepKind::kFillTunnels;
-    case v1::PREPARING_STEP_KIND_DROP_SMALL_COMPONENTS:
-      return PreparingStepKind::kDropSmallComponents;
-    case v1::PREPARING_STEP_KIND_KEEP_LARGEST_COMPONENT:
-      return PreparingStepKind::kKeepLargestComponent;
-    default:
-      return absl::DataLossError(
-          absl::StrCat("the summary has a preparing step of kind ", int{kind}));
-  }
-}
+constexpr std::pair<v1::PreparingStepKind, PreparingStepKind> kPreparingSteps[] = {
+    {v1::PREPARING_STEP_KIND_DENOISE, PreparingStepKind::kDenoise},
+    {v1::PREPARING_STEP_KIND_FILL_CAVITIES, PreparingStepKind::kFillCavities},
+    {v1::PREPARING_STEP_KIND_FILL_TUNNELS, PreparingStepKind::kFillTunnels},
+    {v1::PREPARING_STEP_KIND_DROP_SMALL_COMPONENTS, PreparingStepKind::kDropSmallComponents},
+    {v1::PREPARING_STEP_KIND_KEEP_LARGEST_COMPONENT, PreparingStepKind::kKeepLargestComponent}};
 
 void Set(v1::PreparingStep* message, const PreparingStep& step) {
-  message->set_kind(ToMessage(step.kind));
+  message->set_kind(EnumeratorOf(step.kind, kPreparingSteps));
   message->set_count(step.count);
   message->set_points_added(step.points_added);
   message->set_points_removed(step.points_removed);
 }
 
 absl::StatusOr<PreparingStep> FromMessage(const v1::PreparingStep& message) {
-  BCCSKEL_ASSIGN_OR_RETURN(const PreparingStepKind kind, FromMessage(message.kind()));
-  return PreparingStep{kind, message.count(), message.points_added(), message.points_removed()};
+  const std::optional<PreparingStepKind> kind = MeaningOf(message.kind(), kPreparingSteps);
+  if (!kind.has_value()) {
+    return absl::DataLossError(
+        absl::StrCat("the summary has a preparing step of kind ", int{message.kind()}));
+  }
+  return PreparingStep{*kind, message.count(), message.points_added(), message.points_removed()};
 }
 
 // A newer server may have options that this client does not know.

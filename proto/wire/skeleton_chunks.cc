@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"
+#include "proto/wire/enumerators.h"
 #include "proto/wire/result.h"
 
 namespace bccskel::wire {
@@ -29,38 +31,12 @@ size_t TakeRows(size_t left, size_t row_bytes, size_t& budget_bytes) {
   return rows;
 }
 
-v1::SkeletonNodeKind ToMessage(NodeKind kind) {
-  switch (kind) {
-    case NodeKind::kEnd:
-      return v1::SKELETON_NODE_KIND_END;
-    case NodeKind::kJunction:
-      return v1::SKELETON_NODE_KIND_JUNCTION;
-    case NodeKind::kLoop:
-      return v1::SKELETON_NODE_KIND_LOOP;
-    case NodeKind::kIsolated:
-      return v1::SKELETON_NODE_KIND_ISOLATED;
-    case NodeKind::kClosedSurface:
-      return v1::SKELETON_NODE_KIND_CLOSED_SURFACE;
-  }
-  return v1::SKELETON_NODE_KIND_UNSPECIFIED;
-}
-
-std::optional<NodeKind> FromMessage(int kind) {
-  switch (kind) {
-    case v1::SKELETON_NODE_KIND_END:
-      return NodeKind::kEnd;
-    case v1::SKELETON_NODE_KIND_JUNCTION:
-      return NodeKind::kJunction;
-    case v1::SKELETON_NODE_KIND_LOOP:
-      return NodeKind::kLoop;
-    case v1::SKELETON_NODE_KIND_ISOLATED:
-      return NodeKind::kIsolated;
-    case v1::SKELETON_NODE_KIND_CLOSED_SURFACE:
-      return NodeKind::kClosedSurface;
-    default:
-      return std::nullopt;
-  }
-}
+constexpr std::pair<v1::SkeletonNodeKind, NodeKind> kNodeKinds[] = {
+    {v1::SKELETON_NODE_KIND_END, NodeKind::kEnd},
+    {v1::SKELETON_NODE_KIND_JUNCTION, NodeKind::kJunction},
+    {v1::SKELETON_NODE_KIND_LOOP, NodeKind::kLoop},
+    {v1::SKELETON_NODE_KIND_ISOLATED, NodeKind::kIsolated},
+    {v1::SKELETON_NODE_KIND_CLOSED_SURFACE, NodeKind::kClosedSurface}};
 
 template <typename Columns>
 void AppendPoint(const SkeletonPoint& point, Columns& columns) {
@@ -112,7 +88,8 @@ absl::Status AppendNodes(const v1::SkeletonNodeColumns& c, SkeletonGraph& graph)
       "node", {c.kind_size(), c.x_size(), c.y_size(), c.z_size(), c.radius_size(), c.loops_size(),
                c.cavities_size(), RowsOf(c.birth_size(), c.kind_size())}));
   for (int row = 0; row < c.kind_size(); ++row) {
-    const std::optional<NodeKind> kind = FromMessage(c.kind(row));
+    const std::optional<NodeKind> kind =
+        MeaningOf(static_cast<v1::SkeletonNodeKind>(c.kind(row)), kNodeKinds);
     if (!kind.has_value()) {
       return absl::DataLossError(absl::StrCat("unknown skeleton node kind ", int{c.kind(row)}));
     }
@@ -218,7 +195,7 @@ void SkeletonChunkPager::AddNodes(size_t& budget_bytes, v1::SkeletonNodeColumns&
   for (size_t rows = TakeRows(graph_->nodes.size() - node_, kNodeRowBytes, budget_bytes); rows > 0;
        --rows) {
     const SkeletonNode& node = graph_->nodes[node_++];
-    columns.add_kind(ToMessage(node.kind));
+    columns.add_kind(EnumeratorOf(node.kind, kNodeKinds));
     AppendPoint(node.at, columns);
     if (births_ == Births::kSome) columns.add_birth(BirthInMessage(node.at));
     columns.add_loops(node.loops);

@@ -11,6 +11,7 @@
 #include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"
+#include "proto/wire/enumerators.h"
 #include "proto/wire/result.h"
 #include "server/calls/message_codec.h"
 #include "server/calls/requests.h"
@@ -31,14 +32,6 @@ constexpr std::pair<v1::JobState, JobState> kStates[] = {
     {v1::JOB_STATE_SUCCEEDED, JobState::kSucceeded},
     {v1::JOB_STATE_FAILED, JobState::kFailed},
     {v1::JOB_STATE_CANCELLED, JobState::kCancelled}};
-
-// The inverse of MeaningOf(): the first enumerator with this meaning.
-template <typename Enumerator, typename Meaning, size_t kCount>
-Enumerator EnumeratorOf(Meaning meaning, const std::pair<Enumerator, Meaning> (&known)[kCount]) {
-  const auto* const found =
-      std::ranges::find(known, meaning, &std::pair<Enumerator, Meaning>::second);
-  return found == std::end(known) ? Enumerator() : found->first;
-}
 
 v1::ShellProgress ProgressMessage(const JobProgress& progress) {
   return wire::ToMessage(progress.shell, progress.elapsed);
@@ -109,7 +102,7 @@ v1::Job ToMessage(const JobInfo& job) {
   v1::SkeletonizeConfig config = ConfigOf(job.options);
   message.mutable_options()->Swap(config.mutable_options());
   message.set_thin_volume_return(config.thin_volume_return());
-  message.set_priority(EnumeratorOf(job.priority, kPriorities));
+  message.set_priority(wire::EnumeratorOf(job.priority, kPriorities));
   message.set_threads(job.threads);
   message.set_attempts(job.attempts);
   message.set_last_sequence(job.sequence);
@@ -134,7 +127,7 @@ v1::WatchJobResponse ToMessage(const JobEvent& event) {
   return message;
 }
 
-v1::JobState ToMessage(JobState state) { return EnumeratorOf(state, kStates); }
+v1::JobState ToMessage(JobState state) { return wire::EnumeratorOf(state, kStates); }
 
 absl::StatusOr<NewJob> NewJobOf(const v1::CreateJobRequest& request) {
   NewJob job;

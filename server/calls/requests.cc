@@ -13,6 +13,7 @@
 #include "proto/wire/labels.h"
 #include "proto/wire/options.h"
 #include "proto/wire/placement.h"
+#include "proto/wire/volume_encoding.h"
 #include "server/errors/call_error.h"
 
 namespace bccskel::server {
@@ -22,10 +23,7 @@ absl::StatusOr<VolumeEncoding> EncodingOf(v1::VolumeEncoding encoding) {
   if (encoding == v1::VOLUME_ENCODING_UNSPECIFIED)
     return InvalidField("config.volume.encoding", "must be set");
   return MeaningOf<VolumeEncoding>(encoding, "config.volume.encoding", "encoding ",
-                                   {{v1::VOLUME_ENCODING_OPENEXR, VolumeEncoding::kOpenExr},
-                                    {v1::VOLUME_ENCODING_RAW_PLANES, VolumeEncoding::kRawPlanes},
-                                    {v1::VOLUME_ENCODING_BRICKS, VolumeEncoding::kBricks},
-                                    {v1::VOLUME_ENCODING_CUBIC_MASK, VolumeEncoding::kCubicMask}});
+                                   wire::kVolumeEncodings);
 }
 
 absl::StatusOr<VolumeCompression> CompressionOf(v1::VolumeCompression compression) {

@@ -13,6 +13,7 @@
 #include "bccskel/v1/skeletonization_service.pb.h"
 #include "bccskel/v1/volume.pb.h"
 #include "core/io/volume_header.h"
+#include "proto/wire/enumerators.h"
 #include "server/errors/call_error.h"
 #include "server/jobs/job_runner.h"
 
@@ -42,9 +43,8 @@ inline std::optional<uint32_t> Crc32cOf(const v1::VolumeChunk& chunk) {
 template <typename Meaning, typename Enumerator, size_t kCount>
 absl::StatusOr<Meaning> MeaningOf(Enumerator wanted, const std::string& field, const char* what,
                                   const std::pair<Enumerator, Meaning> (&known)[kCount]) {
-  for (const auto& [enumerator, meaning] : known) {
-    if (enumerator == wanted) return meaning;
-  }
+  const std::optional<Meaning> meaning = wire::MeaningOf(wanted, known);
+  if (meaning.has_value()) return *meaning;
   return InvalidField(field, absl::StrCat("unknown ", what, int{wanted}));
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "proto/wire/result.h"
+#include "tests/support/enum_values.h"
 
 namespace bccskel::wire {
 namespace {
@@ -110,10 +111,11 @@ TEST(SkeletonChunksRoundTrip, SheetsWithoutEdges) {
 TEST(SkeletonChunksRoundTrip, EveryKindOfNode) {
   SkeletonGraph graph;
   int32_t x = 0;
-  for (NodeKind kind : {NodeKind::kEnd, NodeKind::kJunction, NodeKind::kLoop, NodeKind::kIsolated,
-                        NodeKind::kClosedSurface}) {
+  for (NodeKind kind : test::ValuesOf<NodeKind>()) {
     graph.nodes.push_back({kind, {{x += 10, -3, 1}, 5}, 1, 2});
   }
+  EXPECT_EQ(graph.nodes.size(),
+            static_cast<size_t>(v1::SkeletonNodeKind_descriptor()->value_count() - 1));
   ExpectSurvives(graph);
 }
 
