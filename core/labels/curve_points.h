@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
-#include "core/labels/run_components.h"
+#include "core/labels/run_lookup.h"
 #include "core/mask/mask_grid.h"
 #include "core/skeleton/skeleton_graph.h"
 

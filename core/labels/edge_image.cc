@@ -11,7 +11,7 @@
 #include "core/exec/status_macros.h"
 #include "core/labels/curve_points.h"
 #include "core/labels/point_index.h"
-#include "core/labels/run_components.h"
+#include "core/labels/run_lookup.h"
 
 namespace bccskel {
 namespace {

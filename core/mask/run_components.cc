@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <utility>
+#include <vector>
 
 namespace bccskel {
 namespace {
@@ -18,8 +19,7 @@ void RunComponents::AddRow(int32_t y) {
 }
 
 void RunComponents::AddNewSet(int32_t begin, int32_t end) {
-  runs_.AddRun({begin, end, static_cast<uint32_t>(parents_.size())});
-  parents_.push_back(static_cast<uint32_t>(parents_.size()));
+  runs_.AddRun({begin, end, sets_.Add()});
   ++count_;
 }
 
@@ -76,33 +76,22 @@ void RunComponents::LinkRows(std::span<PhaseRun> a, std::span<PhaseRun> b) {
   }
 }
 
-uint32_t RunComponents::Find(uint32_t set) {
-  while (parents_[set] != set) set = parents_[set] = parents_[parents_[set]];
-  return set;
-}
-
-// The smaller number becomes the root, so that the outside stays set 0.
+// A set is found by its smallest member, so the outside stays set 0.
 void RunComponents::Join(uint32_t a, uint32_t b) {
-  a = Find(a);
-  b = Find(b);
-  if (a == b) return;
-  if (a > b) std::swap(a, b);
-  parents_[b] = a;
-  --count_;
+  if (sets_.Join(a, b)) --count_;
 }
 
 void RunComponents::Renumber() {
   constexpr uint32_t kNone = ~uint32_t{0};
-  std::vector<uint32_t> number(parents_.size(), kNone);
+  std::vector<uint32_t> number(sets_.size(), kNone);
   number[kOutside] = kOutside;
   uint32_t next = kOutside + 1;
   for (PhaseRun& run : runs_.runs()) {
-    uint32_t& fresh = number[Find(run.set)];
+    uint32_t& fresh = number[sets_.Find(run.set)];
     if (fresh == kNone) fresh = next++;
     run.set = fresh;
   }
-  parents_.resize(next);
-  for (uint32_t set = 0; set < next; ++set) parents_[set] = set;
+  sets_.Reset(next);
 }
 
 }  // namespace bccskel

@@ -2,8 +2,9 @@
 #define BCCSKEL_CORE_MASK_RUN_COMPONENTS_H_
 
 #include <cstdint>
-#include <vector>
+#include <span>
 
+#include "core/exec/disjoint_sets.h"
 #include "core/mask/phase_runs.h"
 
 namespace bccskel {
@@ -15,7 +16,7 @@ namespace bccskel {
 class RunComponents {
  public:
   RunComponents(MaskPhase phase, Contact contact, int32_t ny)
-      : phase_(phase), contact_(contact), before_(ny), runs_(ny), parents_(1) {}
+      : phase_(phase), contact_(contact), before_(ny), runs_(ny) {}
 
   // Adds the next slice: rows in order of y, and the runs of each in order. Omitted rows have no
   // object voxels.
@@ -33,7 +34,6 @@ class RunComponents {
   void LinkToOutside(int32_t y, PhaseRuns& slice, const PhaseRuns& other);
   void LinkRows(std::span<PhaseRun> a, std::span<PhaseRun> b);
   void Join(uint32_t a, uint32_t b);
-  uint32_t Find(uint32_t set);
   void Renumber();
 
   // The largest difference in y to a touching row of the previous slice.
@@ -44,7 +44,7 @@ class RunComponents {
   PhaseRuns before_;  // the previous slice
   PhaseRuns runs_;    // this slice
   int32_t last_end_ = 0;
-  std::vector<uint32_t> parents_;
+  DisjointSets sets_{1};
   int64_t count_ = 0;
 };
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/labels/convert_label.h"
-#include "core/labels/run_components.h"
+#include "core/labels/run_lookup.h"
 #include "tests/core/labels/label_volume.h"
 #include "tests/core/mask/mask_words.h"
 

@@ -1,4 +1,4 @@
-#include "core/labels/run_components.h"
+#include "core/labels/run_lookup.h"
 
 #include <algorithm>
 #include <tuple>

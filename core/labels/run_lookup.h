@@ -1,5 +1,5 @@
-#ifndef BCCSKEL_CORE_LABELS_RUN_COMPONENTS_H_
-#define BCCSKEL_CORE_LABELS_RUN_COMPONENTS_H_
+#ifndef BCCSKEL_CORE_LABELS_RUN_LOOKUP_H_
+#define BCCSKEL_CORE_LABELS_RUN_LOOKUP_H_
 
 #include <array>
 #include <cstddef>
@@ -38,4 +38,4 @@ std::vector<RunIndex> ComponentsOfRuns(std::span<const VoxelRun> runs, MaskAdjac
 
 }  // namespace bccskel
 
-#endif  // BCCSKEL_CORE_LABELS_RUN_COMPONENTS_H_
+#endif  // BCCSKEL_CORE_LABELS_RUN_LOOKUP_H_
