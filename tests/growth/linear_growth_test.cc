@@ -166,6 +166,25 @@ TEST(LinearGrowth, Isthmuses) {
   ExpectLinear(Net(2), options);
 }
 
+TEST(LinearGrowth, Persistence) {
+  SkeletonizeOptions options;
+  options.thinning.kind = SkeletonKind::kIsthmusCurve;
+  options.pruning.rule = PruningRule::kPersistence;
+  ExpectLinear(Net(2), options);
+  ExpectLinear(Noise(0.35), options, {.edge = 32, .height = 20});
+}
+
+// Walls of boxes.
+TEST(LinearGrowth, Sheets) {
+  SkeletonizeOptions options;
+  options.thinning.kind = SkeletonKind::kSurface;
+  const auto is_wall = [](int32_t i, int32_t j, int32_t k, int /*sublattice*/) {
+    return i % 6 == 0 || j % 6 == 0 || k % 6 == 0;
+  };
+  ExpectLinear(is_wall, options);
+  ExpectLinear(Noise(0.35), options, {.edge = 32, .height = 20});
+}
+
 // Curves to spines all over a ball, as dense on balls of any size, and how much work it is to find
 // out whether the tip of one of them is covered.
 uint64_t WorkForTip(double ball) {
