@@ -1,12 +1,12 @@
 #include "tests/fuzz/durable_fixture.h"
 
-#include <filesystem>
 #include <memory>
 
 #include "bccskel/v1/volume_service.pb.h"
 #include "core/digest/sha256.h"
 #include "server/calls/message_codec.h"
 #include "server/calls/requests.h"
+#include "tests/support/temporary_folder.h"
 
 namespace bccskel::server {
 namespace {
@@ -25,24 +25,19 @@ class NoRunner final : public JobRunner {
 
 class KeptJobs {
  public:
-  KeptJobs() : folder_(std::filesystem::temp_directory_path() / "bccskel-fuzz-XXXXXX") {
-    Insist(mkdtemp(folder_.data()) != nullptr);
+  KeptJobs() {
     Sha256Of("");  // so that OpenSSL ends after this object
     DurableOptions options;
-    options.data_directory = folder_;
+    options.data_directory = folder_.path();
     options.max_runs = 0;
     options.max_tenant_disk_bytes = uint64_t{64} << 20;
     options.algorithm_version = "1";
     durable_jobs_ = *DurableJobs::Open(options, runner_, codec_);
   }
-  ~KeptJobs() {
-    durable_jobs_.reset();
-    std::filesystem::remove_all(folder_);
-  }
   DurableJobs& operator*() { return *durable_jobs_; }
 
  private:
-  std::string folder_;
+  const test::TemporaryFolder folder_;
   NoRunner runner_;
   const MessageCodec codec_{kLimits};
   std::unique_ptr<DurableJobs> durable_jobs_;

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
-#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -15,6 +14,7 @@
 #include "server/store/result_file.h"
 #include "server/store/stored_bytes.h"
 #include "server/store/upload_file.h"
+#include "tests/support/temporary_folder.h"
 
 namespace bccskel::server {
 namespace {
@@ -24,18 +24,9 @@ void Insist(bool holds) {
 }
 
 // Gone with the process.
-struct TemporaryFolder {
-  TemporaryFolder() {
-    path = (std::filesystem::temp_directory_path() / "bccskel-fuzz-XXXXXX").string();
-    Insist(mkdtemp(path.data()) != nullptr);
-  }
-  ~TemporaryFolder() { std::filesystem::remove_all(path); }
-  std::string path;
-};
-
-const std::string& Folder() {
-  static const TemporaryFolder folder;
-  return folder.path;
+const test::TemporaryFolder& Folder() {
+  static const test::TemporaryFolder folder;
+  return folder;
 }
 
 void Write(const std::string& path, std::string_view bytes) {
@@ -55,7 +46,7 @@ void ReadStatus(const std::string& bytes) {
 
 // The digest is that of the bytes: what is damaged is found where it is read.
 void ReadResult(const std::string& bytes) {
-  const std::string path = Folder() + "/result";
+  const std::string path = Folder() / "result";
   Write(path, bytes);
   const auto file = ResultFile::Open(path, Sha256Of(bytes).Hex());
   if (!file.ok()) return Insist(absl::IsDataLoss(file.status()));
@@ -68,7 +59,7 @@ void ReadResult(const std::string& bytes) {
 
 // The first half lies where chunks' lengths and checksums do, the rest where their bytes do.
 void ReadUpload(const std::string& bytes) {
-  const std::string path = Folder() + "/upload";
+  const std::string path = Folder() / "upload";
   const size_t half = bytes.size() / 2;
   Write(UploadFile::ChunksPath(path), bytes.substr(0, half));
   Write(UploadFile::BytesPath(path), bytes.substr(half));
@@ -85,7 +76,7 @@ void ReadRow(const std::string& bytes) {
                                              "owner",  "priority", "attempts", "result", "ended",
                                              "state",  "sequence", "row_check"};
   if (bytes.size() < 2) return;
-  const std::string path = Folder() + "/jobs.db";
+  const std::string path = Folder() / "jobs.db";
   static const bool made = [&path] {
     const auto store = OpenSqliteJobStore(path);
     Insist(store.ok());

@@ -18,6 +18,7 @@
 #include "tests/server/support/declared_volume.h"
 #include "tests/server/support/raw_call.h"
 #include "tests/server/support/running_server.h"
+#include "tests/support/temporary_folder.h"
 
 namespace bccskel::server {
 namespace {
@@ -124,7 +125,7 @@ TEST(Server, AnAddressInUseIsRefused) {
 TEST(Server, ASecondServerOnTheSameUnixSocketIsRefusedAndTheFirstGoesOn) {
   const test::TemporaryFolder folder;
   ServerConfig config = test::SmallServer();
-  config.listen = {"unix:" + folder.File("server.sock")};
+  config.listen = {"unix:" + folder / "server.sock"};
   const auto first = test::StartServer(config);
   const auto second = Server::Start(config);
   EXPECT_EQ(second.status().code(), absl::StatusCode::kAlreadyExists) << second.status();
@@ -135,7 +136,7 @@ TEST(Server, ASecondServerOnTheSameUnixSocketIsRefusedAndTheFirstGoesOn) {
 
 TEST(Server, AFileInPlaceOfItsSocketStays) {
   const test::TemporaryFolder folder;
-  const std::string path = folder.File("model.stl");
+  const std::string path = folder / "model.stl";
   std::ofstream(path) << "precious";
   ServerConfig config = test::SmallServer();
   config.listen = {"unix:" + path};
@@ -147,12 +148,12 @@ TEST(Server, AFileInPlaceOfItsSocketStays) {
 TEST(Server, RemovesItsSocketAtTheEnd) {
   const test::TemporaryFolder folder;
   ServerConfig config = test::SmallServer();
-  config.listen = {"unix:" + folder.File("server.sock")};
+  config.listen = {"unix:" + folder / "server.sock"};
   auto server = test::StartServer(config);
-  EXPECT_TRUE(std::filesystem::exists(folder.File("server.sock")));
+  EXPECT_TRUE(std::filesystem::exists(folder / "server.sock"));
   server->Drain();
   server.reset();
-  EXPECT_FALSE(std::filesystem::exists(folder.File("server.sock")));
+  EXPECT_FALSE(std::filesystem::exists(folder / "server.sock"));
   EXPECT_TRUE(Server::Start(config).ok()) << "the path is free again";
 }
 
@@ -198,7 +199,7 @@ TEST(ServerDrain, CutsOffWhatTakesTooLong) {
 TEST(ServerDrain, EndsWhileTheJobOfADurableCallIsComputed) {
   const test::TemporaryFolder folder;
   ServerConfig config = test::SmallServer();
-  config.durable.data_directory = folder.File("data");
+  config.durable.data_directory = folder / "data";
   config.drain = milliseconds(0);
   auto server = test::StartServer(config);
   test::RawCall call(test::ConnectTo(server->address()));

@@ -9,13 +9,14 @@
 
 #include "server/connection_acceptor.h"
 #include "tests/server/support/running_server.h"
+#include "tests/support/temporary_folder.h"
 
 namespace bccskel::server {
 namespace {
 
 TEST(SocketLock, IsHeldByOneUntilItsEnd) {
   const test::TemporaryFolder folder;
-  const std::string path = folder.File("s");
+  const std::string path = folder / "s";
   {
     const auto first = SocketLock::Take(path);
     ASSERT_TRUE(first.ok()) << first.status();
@@ -27,27 +28,26 @@ TEST(SocketLock, IsHeldByOneUntilItsEnd) {
 
 TEST(SocketLock, MovesWithItsHolder) {
   const test::TemporaryFolder folder;
-  auto first = SocketLock::Take(folder.File("s"));
+  auto first = SocketLock::Take(folder / "s");
   ASSERT_TRUE(first.ok());
   std::optional<SocketLock> second(*std::move(first));
-  EXPECT_FALSE(SocketLock::Take(folder.File("s")).ok());
+  EXPECT_FALSE(SocketLock::Take(folder / "s").ok());
   second.reset();
-  EXPECT_TRUE(SocketLock::Take(folder.File("s")).ok());
+  EXPECT_TRUE(SocketLock::Take(folder / "s").ok());
 }
 
 TEST(SocketLock, AFileThatACrashLeftIsNoObstacle) {
   const test::TemporaryFolder folder;
   {
-    const auto left = std::fopen(folder.File("s.lock").c_str(), "w");
+    const auto left = std::fopen((folder / "s.lock").c_str(), "w");
     std::fclose(left);
   }
-  EXPECT_TRUE(SocketLock::Take(folder.File("s")).ok());
+  EXPECT_TRUE(SocketLock::Take(folder / "s").ok());
 }
 
 TEST(SocketLock, AFolderThatDoesNotExistIsAnInvalidArgument) {
   const test::TemporaryFolder folder;
-  EXPECT_EQ(SocketLock::Take(folder.File("no/s")).status().code(),
-            absl::StatusCode::kInvalidArgument);
+  EXPECT_EQ(SocketLock::Take(folder / "no/s").status().code(), absl::StatusCode::kInvalidArgument);
 }
 
 TEST(SocketLock, ManyWhoTakeAndLeaveItNeverHoldItTogether) {
@@ -57,7 +57,7 @@ TEST(SocketLock, ManyWhoTakeAndLeaveItNeverHoldItTogether) {
   for (int n = 0; n < 4; ++n) {
     threads.emplace_back([&] {
       for (int turn = 0; turn < 500; ++turn) {
-        const auto lock = SocketLock::Take(folder.File("s"));
+        const auto lock = SocketLock::Take(folder / "s");
         if (!lock.ok()) continue;
         EXPECT_EQ(++holders, 1);
         ++taken;

@@ -9,6 +9,7 @@
 
 #include "server/identity/callers.h"
 #include "tests/server/support/running_server.h"
+#include "tests/support/temporary_folder.h"
 
 namespace bccskel::server {
 namespace {
@@ -78,8 +79,8 @@ TEST(NewToken, IsLongAndNeverTheSame) {
 
 TEST(Callers, TakeTheSchemeInAnyCaseAndRefuseOtherSchemes) {
   const test::TemporaryFolder folder;
-  std::ofstream(folder.File("tokens")) << TokenLine("acme", kToken) << '\n';
-  const auto callers = Callers::Create(folder.File("tokens"));
+  std::ofstream(folder / "tokens") << TokenLine("acme", kToken) << '\n';
+  const auto callers = Callers::Create(folder / "tokens");
   ASSERT_TRUE(callers.ok()) << callers.status();
   for (const char* scheme : {"Bearer ", "bearer ", "BEARER "}) {
     const auto caller = (*callers)->Identify(scheme + kToken);
@@ -97,12 +98,12 @@ TEST(Callers, TakeTheSchemeInAnyCaseAndRefuseOtherSchemes) {
 
 TEST(Callers, ReadTheFileAgainOnlyWhenItHasChanged) {
   const test::TemporaryFolder folder;
-  std::ofstream(folder.File("tokens")) << TokenLine("acme", kToken) << '\n';
-  const auto callers = Callers::Create(folder.File("tokens"));
+  std::ofstream(folder / "tokens") << TokenLine("acme", kToken) << '\n';
+  const auto callers = Callers::Create(folder / "tokens");
   ASSERT_TRUE(callers.ok()) << callers.status();
   EXPECT_EQ(*(*callers)->ReloadIfChanged(), Callers::Reload::kNotNeeded);
-  std::ofstream(folder.File("new")) << "nonsense\n";
-  std::filesystem::rename(folder.File("new"), folder.File("tokens"));
+  std::ofstream(folder / "new") << "nonsense\n";
+  std::filesystem::rename(folder / "new", folder / "tokens");
   EXPECT_FALSE((*callers)->ReloadIfChanged().ok());
   EXPECT_EQ(*(*callers)->ReloadIfChanged(), Callers::Reload::kNotNeeded) << "told once";
   EXPECT_TRUE((*callers)->Identify("Bearer " + kToken).ok()) << "what was good before still is";

@@ -3,12 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <filesystem>
 #include <fstream>
 
 #include "core/pipeline/presets.h"
 #include "tests/client/cli/parsed.h"
+#include "tests/support/temporary_folder.h"
 
 namespace bccskel::cli {
 namespace {
@@ -279,16 +278,14 @@ TEST(ArgumentsTest, HelpNamesTheWordsAnOptionTakes) {
 }
 
 TEST(ArgumentsTest, TheInputIsNotOverwritten) {
-  std::string folder = testing::TempDir() + "bccskel-XXXXXX";
-  ASSERT_NE(::mkdtemp(folder.data()), nullptr);
-  const std::string volume = folder + "/a.exr", other = folder + "/./a.exr";
+  const test::TemporaryFolder folder;
+  const std::string volume = folder / "a.exr", other = folder / "./a.exr";
   std::ofstream(volume) << "bytes";
   for (const char* command : {"submit", "skeletonize"}) {
     const Parsed parsed = Parse({command, volume.c_str(), "-o", other.c_str()});
     EXPECT_EQ(parsed.code(), ExitCode::kUsage);
     EXPECT_THAT(parsed.err, HasSubstr("would be overwritten"));
   }
-  std::filesystem::remove_all(folder);
 }
 
 TEST(ArgumentsTest, EveryCommandWithAServerTakesWhatLetsTheUserIn) {

@@ -2,13 +2,13 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <csignal>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+
+#include "tests/support/temporary_folder.h"
 
 namespace bccskel::exporting {
 namespace {
@@ -40,25 +40,14 @@ class FileSizeLimit {
 
 class AtomicFileTest : public testing::Test {
  protected:
-  AtomicFileTest() {
-    std::string folder = testing::TempDir() + "bccskel-XXXXXX";
-    EXPECT_NE(::mkdtemp(folder.data()), nullptr);
-    folder_ = folder;
-  }
-  ~AtomicFileTest() override { fs::remove_all(folder_); }
-
-  size_t FilesThere() const {
-    return static_cast<size_t>(std::distance(fs::directory_iterator(folder_), {}));
-  }
-
-  fs::path folder_;
+  const test::TemporaryFolder folder_;
 };
 
 TEST_F(AtomicFileTest, WritesAllBytesAndLeavesNothingElse) {
   const std::string bytes("a\0b\n", 4);
   ASSERT_TRUE(WriteFileAtomically(folder_ / "new", bytes).ok());
   EXPECT_EQ(ReadBack(folder_ / "new"), bytes);
-  EXPECT_EQ(FilesThere(), 1);
+  EXPECT_EQ(folder_.Count(), 1);
 }
 
 TEST_F(AtomicFileTest, ReplacesAFile) {
@@ -88,11 +77,11 @@ TEST_F(AtomicFileTest, AFailureLeavesTheOldFileAndNoDraft) {
   const absl::Status status = WriteFileAtomically(folder_ / "file", std::string(5000, 'x'));
   EXPECT_FALSE(status.ok());
   EXPECT_EQ(ReadBack(folder_ / "file"), "old");
-  EXPECT_EQ(FilesThere(), 1);
+  EXPECT_EQ(folder_.Count(), 1);
 }
 
 TEST_F(AtomicFileTest, NamesThePathThatCannotBeWritten) {
-  const std::string path = folder_ / "no" / "such" / "folder";
+  const std::string path = folder_ / "no/such/folder";
   const absl::Status status = WriteFileAtomically(path, "bytes");
   EXPECT_TRUE(absl::IsNotFound(status)) << status;
   EXPECT_NE(status.message().find(path), status.message().npos) << status;
@@ -105,26 +94,26 @@ TEST_F(AtomicFileTest, AStopLeavesTheOldFileAndNoDraft) {
   const absl::Status status = WriteFileAtomically(folder_ / "file", "new", stop.get_token());
   EXPECT_TRUE(absl::IsCancelled(status)) << status;
   EXPECT_EQ(ReadBack(folder_ / "file"), "old");
-  EXPECT_EQ(FilesThere(), 1);
+  EXPECT_EQ(folder_.Count(), 1);
 }
 
 TEST_F(AtomicFileTest, TellsBeforehandWhetherAFileCanBeWritten) {
   EXPECT_TRUE(CheckWritable(folder_ / "new").ok());
   EXPECT_TRUE(CheckWritable("/dev/null").ok());
-  EXPECT_EQ(FilesThere(), 0);
-  const std::string path = folder_ / "no" / "folder";
+  EXPECT_EQ(folder_.Count(), 0);
+  const std::string path = folder_ / "no/folder";
   const absl::Status missing = CheckWritable(path);
   EXPECT_TRUE(absl::IsNotFound(missing)) << missing;
   EXPECT_NE(missing.message().find(path), missing.message().npos) << missing;
-  EXPECT_FALSE(CheckWritable(folder_).ok());
+  EXPECT_FALSE(CheckWritable(folder_.path()).ok());
   ASSERT_TRUE(WriteFileAtomically(folder_ / "file", "bytes").ok());
   EXPECT_TRUE(CheckWritable(folder_ / "file").ok());
-  EXPECT_FALSE(CheckWritable(folder_ / "file" / "below").ok());
+  EXPECT_FALSE(CheckWritable(folder_ / "file/below").ok());
 }
 
 TEST_F(AtomicFileTest, AFolderIsNotReplaced) {
-  EXPECT_FALSE(WriteFileAtomically(folder_, "bytes").ok());
-  EXPECT_TRUE(fs::is_directory(folder_));
+  EXPECT_FALSE(WriteFileAtomically(folder_.path(), "bytes").ok());
+  EXPECT_TRUE(fs::is_directory(folder_.path()));
 }
 
 TEST_F(AtomicFileTest, WritesToADeviceWithoutReplacingIt) {

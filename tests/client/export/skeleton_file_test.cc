@@ -3,13 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 
 #include "core/io/volume_file.h"
 #include "tests/client/export/sample_skeletons.h"
+#include "tests/support/temporary_folder.h"
 
 namespace bccskel::exporting {
 namespace {
@@ -19,13 +19,6 @@ using testing::HasSubstr;
 
 class SkeletonFileTest : public testing::Test {
  protected:
-  SkeletonFileTest() {
-    std::string folder = testing::TempDir() + "bccskel-XXXXXX";
-    EXPECT_NE(::mkdtemp(folder.data()), nullptr);
-    folder_ = folder;
-  }
-  ~SkeletonFileTest() override { fs::remove_all(folder_); }
-
   std::string Written(const std::string& name, const Sample& sample) const {
     const auto note = WriteSkeletonFile(folder_ / name, {sample.result, sample.object, "A title"});
     EXPECT_TRUE(note.ok()) << note.status();
@@ -33,7 +26,7 @@ class SkeletonFileTest : public testing::Test {
     return {std::istreambuf_iterator<char>(file), {}};
   }
 
-  fs::path folder_;
+  const test::TemporaryFolder folder_;
 };
 
 TEST_F(SkeletonFileTest, TheEndingChoosesTheFormatInCapitalsOrNot) {

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <filesystem>
 #include <utility>
 
 #include "core/io/volume_encoder.h"
@@ -12,12 +10,6 @@
 
 namespace bccskel::client {
 namespace {
-
-std::string NewFolder() {
-  std::string folder = testing::TempDir() + "bccskel-XXXXXX";
-  EXPECT_NE(::mkdtemp(folder.data()), nullptr);
-  return folder;
-}
 
 v1::SkeletonizeResponse Accepted() {
   v1::SkeletonizeResponse response;
@@ -36,8 +28,7 @@ v1::SkeletonizeResponse Progress() {
 }  // namespace
 
 FakeServer::FakeServer(Script script, LabelsScript labels_script)
-    : folder_(NewFolder()),
-      address_("unix:" + folder_ + "/socket"),
+    : address_("unix:" + folder_ / "socket"),
       service_(std::move(script), std::move(labels_script)) {
   grpc::ServerBuilder builder;
   builder.AddListeningPort(address_, grpc::InsecureServerCredentials());
@@ -49,7 +40,6 @@ FakeServer::FakeServer(Script script, LabelsScript labels_script)
 FakeServer::~FakeServer() {
   server_->Shutdown(std::chrono::system_clock::now());
   server_->Wait();
-  std::filesystem::remove_all(folder_);
 }
 
 ReceivedCall ReadCall(FakeServer::Stream& stream) {

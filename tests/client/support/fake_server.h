@@ -11,6 +11,7 @@
 
 #include "bccskel/v1/skeletonization_service.grpc.pb.h"
 #include "core/pipeline/skeletonize.h"
+#include "tests/support/temporary_folder.h"
 
 namespace bccskel::client {
 
@@ -49,7 +50,7 @@ class FakeServer {
 
   FakeServer(Script script, LabelsScript labels_script);
 
-  std::string folder_;
+  const test::TemporaryFolder folder_;
   std::string address_;
   Service service_;
   std::unique_ptr<grpc::Server> server_;

@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <array>
 #include <cstdio>
@@ -16,6 +15,7 @@
 
 #include "tests/core/io/test_volumes.h"
 #include "tests/support/object_parts.h"
+#include "tests/support/temporary_folder.h"
 
 namespace bccskel {
 namespace {
@@ -25,13 +25,7 @@ using testing::HasSubstr;
 
 class VolumeFile : public testing::Test {
  protected:
-  VolumeFile() {
-    std::string pattern = (fs::temp_directory_path() / "bccskel_volume_XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-  }
-  ~VolumeFile() override { fs::remove_all(folder_); }
-
-  std::string Path(const std::string& name) const { return (folder_ / name).string(); }
+  std::string Path(const std::string& name) const { return folder_ / name; }
   void Put(const std::string& name, const std::string& bytes) const {
     std::ofstream(Path(name), std::ios::binary) << bytes;
   }
@@ -39,11 +33,8 @@ class VolumeFile : public testing::Test {
     std::ifstream file(Path(name), std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
   }
-  size_t FilesInFolder() const {
-    return static_cast<size_t>(std::distance(fs::directory_iterator(folder_), {}));
-  }
 
-  fs::path folder_;
+  const test::TemporaryFolder folder_;
 };
 
 TEST_F(VolumeFile, ComesBackFromEitherFormat) {
@@ -138,7 +129,7 @@ TEST_F(VolumeFile, SaysWhichFileIsWrongAndWhy) {
   EXPECT_THAT(std::string(text.status().message()), HasSubstr(Path("text.exr") + ": not a volume"));
   Put("empty.exr", "");
   EXPECT_EQ(ReadVolumeFile(Path("empty.exr")).status().code(), absl::StatusCode::kInvalidArgument);
-  EXPECT_FALSE(ReadVolumeFile(folder_.string()).ok());
+  EXPECT_FALSE(ReadVolumeFile(folder_.path()).ok());
 }
 
 TEST_F(VolumeFile, RefusesNamesAndEncodingsThatAreNoFileFormat) {
@@ -148,7 +139,7 @@ TEST_F(VolumeFile, RefusesNamesAndEncodingsThatAreNoFileFormat) {
             absl::StatusCode::kInvalidArgument);
   EXPECT_EQ(WriteVolumeFile(Path("no/such/folder.exr"), volume).code(),
             absl::StatusCode::kNotFound);
-  EXPECT_EQ(FilesInFolder(), 0u);
+  EXPECT_EQ(folder_.Count(), 0u);
 }
 
 TEST_F(VolumeFile, LeavesTheOldFileWhenWritingFails) {
@@ -158,7 +149,7 @@ TEST_F(VolumeFile, LeavesTheOldFileWhenWritingFails) {
   EXPECT_EQ(refused.code(), absl::StatusCode::kInvalidArgument);
   EXPECT_THAT(std::string(refused.message()), HasSubstr(".bccb"));
   EXPECT_EQ(Get("v.exr"), "old");
-  EXPECT_EQ(FilesInFolder(), 1u);
+  EXPECT_EQ(folder_.Count(), 1u);
 }
 
 TEST_F(VolumeFile, ReplacesTheOldFileAndHonorsTheUmask) {
@@ -169,7 +160,7 @@ TEST_F(VolumeFile, ReplacesTheOldFileAndHonorsTheUmask) {
   umask(before);
   ASSERT_TRUE(written.ok()) << written;
   EXPECT_EQ(*ReadVolumeFile(Path("v.bccb")), volume);
-  EXPECT_EQ(FilesInFolder(), 1u);
+  EXPECT_EQ(folder_.Count(), 1u);
   struct stat status = {};
   ASSERT_EQ(stat(Path("v.bccb").c_str(), &status), 0);
   EXPECT_EQ(status.st_mode & 0777, 0640u);
@@ -187,7 +178,7 @@ TEST_F(VolumeFile, ALinkStaysALink) {
   }
   EXPECT_EQ(*ReadVolumeFile(Path("v.exr")), volume);
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
-  EXPECT_EQ(FilesInFolder(), 3u);
+  EXPECT_EQ(folder_.Count(), 3u);
 }
 
 // What a program prints on standard output, and its exit status.
@@ -257,7 +248,7 @@ TEST_F(ForeignProgram, OpenExrsOwnCopyOfAVolumeIsTheSameVolume) {
     GTEST_SKIP() << "exrmultipart (Debian package openexr) is missing";
   WriteAs(VolumeCompression::kZip);
   const auto [output, status] =
-      RunProgram("cd " + folder_.string() +
+      RunProgram("cd " + folder_.path() +
                  " && exrmultipart -separate -i v.exr -o part && exrmultipart -combine -i "
                  "part.1.exr part.2.exr -o w.exr");
   ASSERT_EQ(status, 0) << output;

@@ -10,6 +10,7 @@
 #include "tests/server/support/declared_volume.h"
 #include "tests/server/support/raw_call.h"
 #include "tests/server/support/running_server.h"
+#include "tests/support/temporary_folder.h"
 
 namespace bccskel::skeletonize_call {
 namespace {
@@ -40,7 +41,7 @@ TEST(SkeletonizeCall, GivesTheLibrarysResultOverTcp) {
 TEST(SkeletonizeCall, GivesTheLibrarysResultOverAUnixSocket) {
   const test::TemporaryFolder folder;
   server::ServerConfig config = test::SmallServer();
-  config.listen = {"unix:" + folder.File("server.sock")};
+  config.listen = {"unix:" + folder / "server.sock"};
   const auto server = test::StartServer(config);
   EXPECT_EQ(server->addresses(), config.listen);
   const auto replies =

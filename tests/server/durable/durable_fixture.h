@@ -16,7 +16,7 @@
 
 #include "server/durable/durable_jobs.h"
 #include "tests/server/durable/fake_runner.h"
-#include "tests/server/store/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace bccskel::server {
 
@@ -214,7 +214,7 @@ class DurableTest : public testing::Test {
     return files;
   }
 
-  const TemporaryFolder folder_;
+  const test::TemporaryFolder folder_;
   DurableOptions options_;
   const FakeCodec codec_;
   std::atomic<std::chrono::seconds> later_ = std::chrono::seconds(0);

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/server/store/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace bccskel::server {
 namespace {
@@ -57,7 +57,7 @@ class FolderFilesTest : public testing::Test {
   }
   static bool IsThere(const std::string& path) { return std::filesystem::exists(path); }
 
-  const TemporaryFolder folder_;
+  const test::TemporaryFolder folder_;
   const BlobStore blobs_{folder_.path()};
   hours later_{0};
   std::vector<std::string> warnings_;

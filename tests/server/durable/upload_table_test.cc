@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "tests/server/store/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace bccskel::server {
 namespace {
@@ -26,7 +26,7 @@ class UploadTableTest : public testing::Test {
     return std::make_shared<UploadSession>(row, *std::move(file), Time());
   }
 
-  const TemporaryFolder folder_;
+  const test::TemporaryFolder folder_;
   UploadTable table_;
 };
 

@@ -16,7 +16,7 @@
 #include "server/store/data_folder.h"
 #include "server/store/disk_quota.h"
 #include "server/store/upload_file.h"
-#include "tests/server/store/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace bccskel::server {
 namespace {
@@ -66,7 +66,7 @@ class BlobStoreTest : public testing::Test {
   std::string BytesPath() const { return UploadFile::BytesPath(UploadPath()); }
   std::string ChunksPath() const { return UploadFile::ChunksPath(UploadPath()); }
 
-  TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
   const BlobStore blobs_{folder_.path()};
 };
 
@@ -251,7 +251,7 @@ TEST(DiskQuotaTest, DoesNotWrapAround) {
 }
 
 TEST(FolderLockTest, LetsOneProcessHaveTheFolder) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   {
     const auto lock = FolderLock::Take(folder.path());
     ASSERT_TRUE(lock.ok());

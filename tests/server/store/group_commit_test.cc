@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "server/store/job_store.h"
-#include "tests/server/store/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace bccskel::server {
 namespace {
@@ -27,7 +27,7 @@ JobRow Job(const std::string& name) {
   return job;
 }
 
-std::unique_ptr<JobStore> Open(const TemporaryFolder& folder) {
+std::unique_ptr<JobStore> Open(const test::TemporaryFolder& folder) {
   auto store = OpenSqliteJobStore(folder / "jobs.db");
   EXPECT_TRUE(store.ok()) << store.status();
   return *std::move(store);
@@ -38,7 +38,7 @@ GroupCommit::Change Insert(const std::string& name) {
 }
 
 TEST(GroupCommitTest, WritesWhatWaitsInOneTransaction) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   std::promise<void> go;
   std::vector<int> order;
   int transactions = 0;
@@ -64,7 +64,7 @@ TEST(GroupCommitTest, WritesWhatWaitsInOneTransaction) {
 }
 
 TEST(GroupCommitTest, AChangeThatFailsTakesBackNothingButItself) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   absl::Status failed;
   {
     GroupCommit commit(Open(folder));
@@ -85,7 +85,7 @@ TEST(GroupCommitTest, AChangeThatFailsTakesBackNothingButItself) {
 }
 
 TEST(GroupCommitTest, AChangeThatFindsNothingCostsNoFurtherTransaction) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   int transactions = 0;
   GroupCommit commit(Open(folder));
   commit.OnBegin([&] { ++transactions; });
@@ -124,7 +124,7 @@ class LimitedFiles {
 
 // A tenant whose job does not fit on the disk must not be another's error, let alone a reader's.
 TEST(GroupCommitTest, ATransactionThatFailsIsTheErrorOfNoOtherChange) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   GroupCommit commit(Open(folder));
   std::promise<void> go;
   commit.Post([&] { go.get_future().wait(); });
@@ -157,7 +157,7 @@ TEST(GroupCommitTest, ATransactionThatFailsIsTheErrorOfNoOtherChange) {
 }
 
 TEST(GroupCommitTest, TakesChangesFromManyThreads) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   {
     GroupCommit commit(Open(folder));
     std::vector<std::jthread> threads;
@@ -173,7 +173,7 @@ TEST(GroupCommitTest, TakesChangesFromManyThreads) {
 }
 
 // Writes jobs and tells each that is confirmed through the pipe, until it is killed.
-[[noreturn]] void WriteUntilKilled(const TemporaryFolder& folder, int pipe, int round) {
+[[noreturn]] void WriteUntilKilled(const test::TemporaryFolder& folder, int pipe, int round) {
   GroupCommit commit(Open(folder));
   for (uint32_t n = 0;; ++n) {
     commit.Post(Insert(std::to_string(round) + "/" + std::to_string(n)),
@@ -184,7 +184,8 @@ TEST(GroupCommitTest, TakesChangesFromManyThreads) {
   }
 }
 
-std::set<std::string> KillAWriter(const TemporaryFolder& folder, int round, int microseconds) {
+std::set<std::string> KillAWriter(const test::TemporaryFolder& folder, int round,
+                                  int microseconds) {
   int pipes[2] = {};
   EXPECT_EQ(pipe(pipes), 0);
   const pid_t child = fork();
@@ -207,7 +208,7 @@ std::set<std::string> KillAWriter(const TemporaryFolder& folder, int round, int 
 }
 
 TEST(GroupCommitTest, LosesNothingConfirmedHoweverOftenItIsKilled) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   std::mt19937 random(20061121);
   std::set<std::string> confirmed;
   for (int round = 0; round < 30; ++round) {

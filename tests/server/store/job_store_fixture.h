@@ -8,7 +8,7 @@
 
 #include "server/store/job_store.h"
 #include "tests/server/store/postgres_server.h"
-#include "tests/server/store/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace bccskel::server {
 
@@ -47,7 +47,7 @@ class JobStoreTest : public testing::TestWithParam<Backend> {
     return *number;
   }
 
-  TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
   std::string database_;  // empty: SQLite's
   std::unique_ptr<JobStore> store_;
 };

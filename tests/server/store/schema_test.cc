@@ -6,7 +6,7 @@
 #include "server/store/file_io.h"
 #include "server/store/job_store.h"
 #include "server/store/sql_database.h"
-#include "tests/server/store/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace bccskel::server {
 namespace {
@@ -15,7 +15,7 @@ using testing::HasSubstr;
 
 // The refusal of a file with that version.
 absl::Status RefusalOf(int version) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const std::string state = "PRAGMA user_version = " + std::to_string(version);
   EXPECT_TRUE((*OpenSqlite(folder / "jobs.db"))->Execute(state).ok());
   return OpenSqliteJobStore(folder / "jobs.db").status();
@@ -36,7 +36,7 @@ TEST(SchemaTest, RefusesAFileOfAnOlderServerAndSaysWhatToDo) {
 }
 
 TEST(SchemaTest, RefusesADamagedFile) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   {
     auto file = *File::OpenToWrite(folder / "jobs.db");
     ASSERT_TRUE(file.WriteAt(0, std::string(8192, 'x')).ok());
@@ -45,7 +45,7 @@ TEST(SchemaTest, RefusesADamagedFile) {
 }
 
 TEST(SchemaTest, StatesTheVersionThatItWrites) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   ASSERT_TRUE(OpenSqliteJobStore(folder / "jobs.db").ok());
   auto database = *OpenSqlite(folder / "jobs.db");
   EXPECT_EQ((*database->Run("PRAGMA user_version", {})).front().Number(), kSqliteSchemaVersion);

@@ -1,9 +1,6 @@
 #include "tests/server/support/running_server.h"
 
-#include <stdlib.h>
-
 #include <chrono>
-#include <filesystem>
 #include <stdexcept>
 #include <thread>
 
@@ -17,17 +14,6 @@ server::ServerConfig SmallServer() {
   config.limits.threads = config.limits.max_jobs = 2;
   config.limits.max_bytes = uint64_t{2} << 30;
   return config;
-}
-
-TemporaryFolder::TemporaryFolder() {
-  std::string name = std::filesystem::temp_directory_path() / "bccskel-XXXXXX";
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder: " + name);
-  path_ = name;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
 }
 
 std::unique_ptr<Server> StartServer(const server::ServerConfig& config) {

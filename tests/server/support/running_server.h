@@ -13,19 +13,6 @@ namespace bccskel::test {
 // Two threads, two jobs, a free port on loopback; the rest as by default.
 server::ServerConfig SmallServer();
 
-// A folder for sockets, removed with what it holds.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  std::string File(const std::string& name) const { return path_ + "/" + name; }
-
- private:
-  std::string path_;
-};
-
 // Throws when it cannot start, which fails the test.
 std::unique_ptr<server::Server> StartServer(const server::ServerConfig& config = SmallServer());
 
