@@ -22,6 +22,7 @@
 #include "client/export/vtp.h"
 #include "core/pipeline/skeletonize.h"
 #include "core/pruning/ball_index.h"
+#include "tests/support/cell_patterns.h"
 
 namespace {
 uint64_t blocks = 0;
@@ -31,6 +32,8 @@ extern "C" void __sanitizer_cov_trace_pc() { ++blocks; }
 
 namespace bccskel {
 namespace {
+
+using test::IsDust, test::IsIn, test::Net;
 
 constexpr double kMostGrowth = 2.6;
 
@@ -43,34 +46,6 @@ uint64_t WorkOf(const std::function<void()>& task) {
   const uint64_t before = blocks;
   task();
   return blocks - before;
-}
-
-using IsIn = std::function<bool(int32_t i, int32_t j, int32_t k, int sublattice)>;
-
-// The points of both sublattices in a box of cells.
-Volume VolumeOf(const Box& box, const IsIn& is_in) {
-  VolumeBuilder builder({box.edge, box.edge, box.height});
-  for (int32_t k = 0; k < box.height; ++k) {
-    for (int32_t j = 0; j < box.edge; ++j) {
-      for (int32_t i = 0; i < box.edge; ++i) {
-        for (const int s : {0, 1}) {
-          if (is_in(i, j, k, s)) builder.Add({2 * i + s, 2 * j + s, 2 * k + s});
-        }
-      }
-    }
-  }
-  return *std::move(builder).Build();
-}
-
-bool IsDust(int32_t i, int32_t j, int32_t k, int sublattice) {
-  return sublattice == 0 && (i + j + k) % 2 == 0;
-}
-
-// Lines along all axes, `step` cells apart.
-IsIn Net(int32_t step) {
-  return [step](int32_t i, int32_t j, int32_t k, int sublattice) {
-    return sublattice == 0 && (i % step == 0) + (j % step == 0) + (k % step == 0) >= 2;
-  };
 }
 
 // A single curve through the whole box, back and forth.
@@ -106,7 +81,7 @@ struct Formats {
 };
 
 Formats WorkFor(const Box& box, const IsIn& is_in, const SkeletonizeOptions& options) {
-  const Volume object = VolumeOf(box, is_in);
+  const Volume object = test::VolumeOfCells({box.edge, box.edge, box.height}, is_in);
   absl::StatusOr<SkeletonizeResult> result;
   Formats work;
   work.graph = WorkOf([&] { result = Skeletonize(object, options, {}); });

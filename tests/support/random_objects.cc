@@ -99,4 +99,13 @@ std::vector<LatticePoint> Translated(std::span<const LatticePoint> points, Latti
   return moved;
 }
 
+Volume PlacedVolume(uint64_t seed, std::span<const LatticePoint> points) {
+  const auto step = [seed](uint64_t stride, uint64_t range) {
+    return static_cast<int32_t>(seed * stride % range);
+  };
+  const int32_t odd = static_cast<int32_t>(seed % 2);
+  const LatticePoint by = {2 * step(5, 17) + odd, 2 * step(3, 5) + odd, 2 * step(7, 9) + odd};
+  return VolumeOfPoints(Translated(points, by));
+}
+
 }  // namespace bccskel::test

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/lattice/lattice_point.h"
+#include "core/volume/volume.h"
 
 // Seeded objects for tests of laws. The same seed gives the same points on every machine. All
 // coordinates are >= 0, so VolumeOfPoints() takes the result.
@@ -31,6 +32,9 @@ std::vector<LatticePoint> RandomSubset(uint64_t seed, std::span<const LatticePoi
 
 // The points moved by a lattice vector.
 std::vector<LatticePoint> Translated(std::span<const LatticePoint> points, LatticePoint by);
+
+// Moves the object so that it crosses bricks in another place for each seed.
+Volume PlacedVolume(uint64_t seed, std::span<const LatticePoint> points);
 
 }  // namespace bccskel::test
 

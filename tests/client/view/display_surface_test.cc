@@ -8,25 +8,18 @@
 
 #include "core/import/shapes/shapes.h"
 #include "core/pipeline/skeletonize.h"
+#include "tests/support/enclosed_volume.h"
 
 namespace bccskel::view {
 namespace {
+
+using test::EnclosedBy;
 
 Volume Ball(const Placement& placement = {}) {
   const Volume ball = *GenerateShape(Shape::kBall, {.points = 30000});
   return Volume::FromSortedBricks(ball.extent(), placement,
                                   {ball.keys().begin(), ball.keys().end()},
                                   {ball.bricks().begin(), ball.bricks().end()});
-}
-
-double EnclosedBy(const DisplaySurface& surface) {
-  double sum = 0;
-  for (const auto& [i, j, k] : surface.triangles) {
-    const WorldPoint &a = surface.vertices[i], &b = surface.vertices[j], &c = surface.vertices[k];
-    sum += a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
-           a[2] * (b[0] * c[1] - b[1] * c[0]);
-  }
-  return sum / 6;
 }
 
 TEST(DisplaySurfaceTest, KeepsToItsBudgetAndItsVolume) {

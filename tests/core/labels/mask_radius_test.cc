@@ -7,9 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "core/labels/convert_label.h"
-#include "core/mask/mask_converter.h"
-#include "core/pipeline/skeletonize.h"
+#include "tests/core/labels/voxel_figure.h"
 
 namespace bccskel::mask_radius {
 namespace {
@@ -38,22 +36,11 @@ struct Solid {
 constexpr int32_t kEdge = 56;
 
 SkeletonizeResult SkeletonOf(const Solid& solid, VoxelPoints points) {
-  const MaskGrid grid = {.nx = kEdge, .ny = kEdge, .nz = kEdge};
-  const MaskOptions options = {.points = points};
-  auto converter = *MaskConverter::Create(grid, options);
-  for (int32_t z = 0; z < kEdge; ++z) {
-    std::vector<uint64_t> words(grid.WordsPerSlice());
-    for (int32_t y = 0; y < kEdge; ++y) {
-      for (int32_t x = 0; x < kEdge; ++x) {
-        const Vector at = {1.0 * x, 1.0 * y, 1.0 * z};
-        if (solid.Depth(at) < 0) continue;
-        words[static_cast<size_t>(y)] |= uint64_t{1} << x;
-      }
-    }
-    EXPECT_TRUE(converter.AddSlice(words, {}).ok());
-  }
-  const ConvertedMask converted = *std::move(converter).Finish();
-  return *Skeletonize(converted.volume, ForMask({}, grid, options), {});
+  return test::SkeletonOf({.nx = kEdge, .ny = kEdge, .nz = kEdge}, {}, {.points = points},
+                          [&](const test::Voxel& voxel) {
+                            const auto [x, y, z] = voxel;
+                            return solid.Depth({1.0 * x, 1.0 * y, 1.0 * z}) >= 0;
+                          });
 }
 
 class MeanError {

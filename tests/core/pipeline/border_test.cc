@@ -9,6 +9,7 @@
 
 #include "core/pipeline/skeletonize.h"
 #include "core/pipeline/skeletonize_within.h"
+#include "tests/core/pipeline/skeleton_of.h"
 #include "tests/support/contexts.h"
 #include "tests/support/random_objects.h"
 #include "tests/support/volume_where.h"
@@ -16,19 +17,11 @@
 namespace bccskel {
 namespace {
 
-using test::VolumeWhere;
+using test::SkeletonOf, test::VolumeWhere;
 
 SkeletonizeOptions Continued(SkeletonizeOptions options = {}) {
   options.border = Border::kContinues;
   return options;
-}
-
-SkeletonizeResult SkeletonOf(const Volume& object, const SkeletonizeOptions& options,
-                             int threads = 1) {
-  test::TeamContext context(threads);
-  auto result = Skeletonize(object, options, context);
-  EXPECT_TRUE(result.ok()) << result.status();
-  return *std::move(result);
 }
 
 Volume CroppedBlob(uint64_t seed) {

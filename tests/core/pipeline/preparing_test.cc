@@ -8,6 +8,7 @@
 #include "core/pipeline/notes.h"
 #include "core/pipeline/option_words.h"
 #include "core/pipeline/skeletonize.h"
+#include "tests/core/pipeline/skeleton_of.h"
 #include "tests/support/random_objects.h"
 #include "tests/support/reference_betti.h"
 #include "tests/support/reference_conditions.h"
@@ -15,16 +16,11 @@
 namespace bccskel::preparing {
 namespace {
 
+using test::SkeletonOf;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-SkeletonizeResult SkeletonOf(const Volume& object, const SkeletonizeOptions& options) {
-  auto result = Skeletonize(object, options, {});
-  EXPECT_TRUE(result.ok()) << result.status();
-  return *std::move(result);
-}
 
 BettiNumbers BettiOf(const Volume& object) {
   return test::ReferenceBetti(test::ReferencePointSet(object));

@@ -11,11 +11,13 @@
 #include "core/import/voxelize/voxelize.h"
 #include "core/pipeline/skeletonize.h"
 #include "tests/core/import/mesh/test_data.h"
-#include "tests/support/contexts.h"
+#include "tests/core/pipeline/skeleton_of.h"
 #include "tests/support/reference_thinner.h"
 
 namespace bccskel::real_meshes {
 namespace {
+
+using test::SkeletonOf;
 
 struct RealMesh {
   const char* file;
@@ -71,14 +73,6 @@ std::string NameOf(const ::testing::TestParamInfo<RealMesh>& info) {
   return name;
 }
 
-SkeletonizeResult SkeletonOf(const Volume& object, int threads,
-                             const SkeletonizeOptions& options = {}) {
-  test::TeamContext context(threads);
-  auto result = Skeletonize(object, options, context);
-  EXPECT_TRUE(result.ok()) << result.status();
-  return *std::move(result);
-}
-
 // Components and loops as a user of the graph counts them.
 BettiNumbers TopologyOf(const SkeletonGraph& graph) {
   std::vector<uint32_t> root(graph.nodes.size());
@@ -113,14 +107,14 @@ TEST_P(RealMeshes, At100000PointsTheSkeletonHasTheTopologyOfTheMeshOnAnyThreadsA
             (SolidTopology{GetParam().solid.components, GetParam().solid.loops, 0}));
   EXPECT_EQ(grid.warnings.empty(), *GetParam().reason == '\0') << GetParam().reason;
   EXPECT_NEAR(static_cast<double>(grid.volume.PointCount()), 100000, 2000);
-  const SkeletonizeResult one = SkeletonOf(grid.volume, 1);
+  const SkeletonizeResult one = SkeletonOf(grid.volume, {});
   ExpectTopology(one, GridTopology(grid));
   for (int threads : {2, 8}) {
-    EXPECT_EQ(SkeletonOf(grid.volume, threads).sha256, one.sha256) << threads << " threads";
+    EXPECT_EQ(SkeletonOf(grid.volume, {}, threads).sha256, one.sha256) << threads << " threads";
   }
   for (const std::string& name : exec::SupportedInstructionSets()) {
     ASSERT_TRUE(exec::ChooseInstructionSet(name));
-    EXPECT_EQ(SkeletonOf(grid.volume, 1).sha256, one.sha256) << name;
+    EXPECT_EQ(SkeletonOf(grid.volume, {}).sha256, one.sha256) << name;
   }
   exec::ChooseInstructionSet("");
 }
@@ -129,7 +123,7 @@ TEST_P(RealMeshes, At850000PointsTheSkeletonHasTheTopologyOfTheMesh) {
   const VoxelizeResult grid = Voxelized(850000);
   EXPECT_NEAR(static_cast<double>(grid.volume.PointCount()), 850000, 17000);
   const auto processors = static_cast<int>(std::thread::hardware_concurrency());
-  ExpectTopology(SkeletonOf(grid.volume, std::max(processors, 1)), GridTopology(grid));
+  ExpectTopology(SkeletonOf(grid.volume, {}, std::max(processors, 1)), GridTopology(grid));
 }
 
 TEST_P(RealMeshes, At40000PointsTheEngineAgreesWithTheSlowReference) {
@@ -139,7 +133,7 @@ TEST_P(RealMeshes, At40000PointsTheEngineAgreesWithTheSlowReference) {
         .thinning = {.method = method},
         .distance = DistanceKind::kChamfer,  // as the reference
         .pruning = {.rule = PruningRule::kNone, .tips = TipPlacement::kAsThinned}};
-    EXPECT_EQ(SkeletonOf(object, 2, options).thin.SortedPoints(),
+    EXPECT_EQ(SkeletonOf(object, options, 2).thin.SortedPoints(),
               test::ReferenceThin(object, options.thinning));
   }
 }
@@ -151,7 +145,7 @@ TEST(RealOpenMesh, IsFilledByWindingNumberWithoutHolesOrCavities) {
   for (uint64_t points : {100000u, 850000u}) {
     const auto grid = Voxelize(*mesh, {.points = points, .fill = FillRule::kWinding}, {});
     ASSERT_TRUE(grid.ok()) << grid.status();
-    ExpectTopology(SkeletonOf(grid->volume, 1), {1, 0, 0});
+    ExpectTopology(SkeletonOf(grid->volume, {}), {1, 0, 0});
   }
 }
 

@@ -5,20 +5,14 @@
 #include <vector>
 
 #include "core/exec/instruction_sets.h"
-#include "tests/support/contexts.h"
+#include "tests/core/pipeline/skeleton_of.h"
 #include "tests/support/random_objects.h"
 #include "tests/support/reference_betti.h"
 
 namespace bccskel::skeletonize {
 namespace {
 
-SkeletonizeResult SkeletonOf(const Volume& object, int threads,
-                             const SkeletonizeOptions& options = {}) {
-  test::TeamContext context(threads);
-  auto result = Skeletonize(object, options, context);
-  EXPECT_TRUE(result.ok()) << result.status();
-  return *std::move(result);
-}
+using test::SkeletonOf;
 
 std::vector<Volume> Objects() {
   std::vector<Volume> objects;
@@ -34,7 +28,7 @@ std::vector<Volume> Objects() {
 
 TEST(Skeletonize, CertifiesWhatAnIndependentCountFinds) {
   for (const Volume& object : Objects()) {
-    const SkeletonizeResult result = SkeletonOf(object, 1);
+    const SkeletonizeResult result = SkeletonOf(object, {});
     EXPECT_EQ(result.object_points, object.PointCount());
     EXPECT_EQ(result.certificate.input, test::ReferenceBetti(test::ReferencePointSet(object)));
     EXPECT_EQ(result.certificate.skeleton,
@@ -46,7 +40,7 @@ TEST(Skeletonize, CertifiesWhatAnIndependentCountFinds) {
 
 TEST(Skeletonize, GraphStatesTheLoopsAndCavitiesOfTheObject) {
   for (const Volume& object : Objects()) {
-    const SkeletonizeResult result = SkeletonOf(object, 1);
+    const SkeletonizeResult result = SkeletonOf(object, {});
     const BettiNumbers& input = result.certificate.input;
     auto loops = static_cast<int64_t>(result.graph.edges.size()) -
                  static_cast<int64_t>(result.graph.nodes.size()) + input.components;
@@ -63,11 +57,11 @@ TEST(Skeletonize, GraphStatesTheLoopsAndCavitiesOfTheObject) {
 TEST(Skeletonize, GivesOneDigestForAnyThreadsAndInstructionSet) {
   const std::vector<std::string> names = exec::SupportedInstructionSets();
   for (const Volume& object : Objects()) {
-    const SkeletonizeResult expected = SkeletonOf(object, 1);
+    const SkeletonizeResult expected = SkeletonOf(object, {});
     for (const std::string& name : names) {
       ASSERT_TRUE(exec::ChooseInstructionSet(name));
       for (int threads : {1, name == names.front() ? 8 : 2}) {
-        const SkeletonizeResult result = SkeletonOf(object, threads);
+        const SkeletonizeResult result = SkeletonOf(object, {}, threads);
         EXPECT_EQ(result.sha256, expected.sha256) << name << ", " << threads << " threads";
         EXPECT_TRUE(result.graph == expected.graph);
         EXPECT_TRUE(result.certificate == expected.certificate);
@@ -78,7 +72,7 @@ TEST(Skeletonize, GivesOneDigestForAnyThreadsAndInstructionSet) {
 }
 
 TEST(Skeletonize, OfAnEmptyObjectIsAnEmptyGraph) {
-  const SkeletonizeResult result = SkeletonOf(Volume(), 1);
+  const SkeletonizeResult result = SkeletonOf(Volume(), {});
   EXPECT_TRUE(result.graph.nodes.empty());
   EXPECT_EQ(result.object_points, 0u);
   EXPECT_EQ(result.certificate, Certificate());
@@ -102,7 +96,7 @@ TEST(Skeletonize, PartialThinningKeepsTheTopologyToo) {
   const Volume object = VolumeOfPoints(test::RandomBlob(9, {40, 40, 40}, 6, 16));
   uint64_t points = object.PointCount();
   for (int32_t last : {1, 3, 6}) {
-    const SkeletonizeResult result = SkeletonOf(object, 1, {.thinning = {.last_shell = last}});
+    const SkeletonizeResult result = SkeletonOf(object, {.thinning = {.last_shell = last}});
     EXPECT_TRUE(result.certificate.TopologyKept());
     EXPECT_LE(result.skeleton_points, points);
     points = result.skeleton_points;

@@ -4,9 +4,8 @@
 #include <ostream>
 #include <vector>
 
-#include "core/distance/distance_field.h"
 #include "core/thinning/thinning.h"
-#include "tests/support/contexts.h"
+#include "tests/core/thinning/thin.h"
 #include "tests/support/random_objects.h"
 #include "tests/support/reference_betti.h"
 #include "tests/support/reference_point_set.h"
@@ -17,6 +16,8 @@
 
 namespace bccskel {
 namespace {
+
+using test::PlacedVolume, test::Thin;
 
 constexpr StubblePolicy kPolicies[] = {StubblePolicy::kKeepTwo, StubblePolicy::kLiteral,
                                        StubblePolicy::kNone};
@@ -41,15 +42,6 @@ ThinningOptions Combination(size_t n, std::span<const LatticePoint> points) {
 }
 constexpr size_t kCombinations = 144;
 
-ThinningResult Thin(const Volume& object, const ThinningOptions& options, int threads) {
-  test::TeamContext context(threads);
-  const auto distance = ComputeDistance(object, DistanceKind::kChamfer, context);
-  EXPECT_TRUE(distance.ok()) << distance.status();
-  auto result = ThinObject(object, *distance, options, context);
-  EXPECT_TRUE(result.ok()) << result.status();
-  return *std::move(result);
-}
-
 // One worker, and a team whose size changes with `turn`.
 void ExpectAgreement(const Volume& object, const ThinningOptions& options, size_t turn) {
   const test::ReferenceThinning expected = test::ReferenceThinCounted(object, options);
@@ -64,16 +56,6 @@ void ExpectAgreement(const Volume& object, const ThinningOptions& options, size_
     ASSERT_EQ(result.passes, expected.passes);
     ASSERT_EQ(result.thin.extent(), object.extent());
   }
-}
-
-// Moves the object so that it crosses bricks in another place for each seed.
-Volume PlacedVolume(uint64_t seed, std::span<const LatticePoint> points) {
-  const auto step = [seed](uint64_t stride, uint64_t range) {
-    return static_cast<int32_t>(seed * stride % range);
-  };
-  const int32_t odd = static_cast<int32_t>(seed % 2);
-  const LatticePoint by = {2 * step(5, 17) + odd, 2 * step(3, 5) + odd, 2 * step(7, 9) + odd};
-  return VolumeOfPoints(test::Translated(points, by));
 }
 
 void ExpectAgreementOnSeveralCombinations(uint64_t seed, const Volume& object) {

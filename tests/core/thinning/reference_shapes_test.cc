@@ -4,10 +4,9 @@
 #include <vector>
 
 #include "core/certificate/certificate.h"
-#include "core/distance/distance_field.h"
 #include "core/import/shapes/shapes.h"
 #include "core/thinning/thinning.h"
-#include "tests/support/contexts.h"
+#include "tests/core/thinning/thin.h"
 #include "tests/support/reference_betti.h"
 #include "tests/support/reference_point_set.h"
 #include "tests/support/reference_thinner.h"
@@ -17,14 +16,7 @@
 namespace bccskel::reference_shapes {
 namespace {
 
-ThinningResult Thin(const Volume& object, const ThinningOptions& options, int threads) {
-  test::TeamContext context(threads);
-  const auto distance = ComputeDistance(object, DistanceKind::kChamfer, context);
-  EXPECT_TRUE(distance.ok()) << distance.status();
-  auto result = ThinObject(object, *distance, options, context);
-  EXPECT_TRUE(result.ok()) << result.status();
-  return *std::move(result);
-}
+using test::Thin;
 
 class ShapesAgreement : public testing::TestWithParam<Shape> {
  protected:

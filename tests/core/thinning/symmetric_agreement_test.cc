@@ -5,10 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "core/distance/distance_field.h"
 #include "core/exec/instruction_sets.h"
 #include "core/thinning/thinning.h"
-#include "tests/support/contexts.h"
+#include "tests/core/thinning/thin.h"
 #include "tests/support/random_objects.h"
 #include "tests/support/reference_betti.h"
 #include "tests/support/reference_conditions.h"
@@ -21,6 +20,8 @@
 
 namespace bccskel::symmetric_agreement {
 namespace {
+
+using test::PlacedVolume, test::Thin;
 
 constexpr SkeletonKind kKinds[] = {SkeletonKind::kCurve, SkeletonKind::kSurface,
                                    SkeletonKind::kKernel, SkeletonKind::kIsthmusCurve};
@@ -45,14 +46,6 @@ ThinningOptions Combination(uint64_t n, std::span<const LatticePoint> points) {
   return options;
 }
 
-ThinningResult Thin(const Volume& object, const ThinningOptions& options, int threads) {
-  test::TeamContext context(threads);
-  auto result = ThinObject(object, *ComputeDistance(object, DistanceKind::kChamfer, context),
-                           options, context);
-  EXPECT_TRUE(result.ok()) << result.status();
-  return *std::move(result);
-}
-
 void ExpectAgreement(const Volume& object, const ThinningOptions& options, uint64_t turn) {
   const test::ReferenceThinning expected = test::ReferenceThinCounted(object, options);
   ASSERT_EQ(expected.removed_by_cleanup, 0u);
@@ -66,16 +59,6 @@ void ExpectAgreement(const Volume& object, const ThinningOptions& options, uint6
     ASSERT_EQ(result.removed_by_cleanup, 0u);
     ASSERT_EQ(result.passes, expected.passes);
   }
-}
-
-// Moves the object so that it crosses bricks in another place for each seed.
-Volume PlacedVolume(uint64_t seed, std::span<const LatticePoint> points) {
-  const auto step = [seed](uint64_t stride, uint64_t range) {
-    return static_cast<int32_t>(seed * stride % range);
-  };
-  const int32_t odd = static_cast<int32_t>(seed % 2);
-  const LatticePoint by = {2 * step(5, 17) + odd, 2 * step(3, 5) + odd, 2 * step(7, 9) + odd};
-  return VolumeOfPoints(test::Translated(points, by));
 }
 
 TEST(SymmetricAgreementLaw, HoldsOnRandomClouds) {

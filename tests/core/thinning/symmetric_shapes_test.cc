@@ -7,7 +7,7 @@
 #include "core/distance/distance_field.h"
 #include "core/import/shapes/shapes.h"
 #include "core/thinning/thinning.h"
-#include "tests/support/contexts.h"
+#include "tests/core/thinning/thin.h"
 #include "tests/support/reference_betti.h"
 #include "tests/support/reference_point_set.h"
 #include "tests/support/reference_thinner.h"
@@ -17,6 +17,8 @@
 
 namespace bccskel::symmetric_shapes {
 namespace {
+
+using test::Thin;
 
 struct Case {
   Shape shape;
@@ -40,12 +42,8 @@ Volume Generate(Shape shape, uint64_t points, double noise) {
   return *std::move(volume);
 }
 
-Volume Thin(const Volume& object, DistanceKind distance, SkeletonKind kind, int threads) {
-  test::TeamContext context(threads);
-  auto result = ThinObject(object, *ComputeDistance(object, distance, context),
-                           {.method = ThinningMethod::kSymmetric, .kind = kind}, context);
-  EXPECT_TRUE(result.ok()) << result.status();
-  return std::move(result->thin);
+ThinningOptions Symmetric(SkeletonKind kind) {
+  return {.method = ThinningMethod::kSymmetric, .kind = kind};
 }
 
 class SymmetricShapes : public testing::TestWithParam<Case> {};
@@ -53,10 +51,10 @@ class SymmetricShapes : public testing::TestWithParam<Case> {};
 TEST_P(SymmetricShapes, EngineAndReferenceGiveTheSamePoints) {
   const auto [shape, kind] = GetParam();
   const Volume object = Generate(shape, 8'000, kind == SkeletonKind::kCurve ? 0.05 : 0.01);
-  const ThinningOptions options = {.method = ThinningMethod::kSymmetric, .kind = kind};
+  const ThinningOptions options = Symmetric(kind);
   const std::vector<LatticePoint> expected = test::ReferenceThin(object, options);
   for (int threads : {1, 3}) {
-    EXPECT_TRUE(Thin(object, DistanceKind::kChamfer, kind, threads).SortedPoints() == expected)
+    EXPECT_TRUE(Thin(object, options, threads).thin.SortedPoints() == expected)
         << threads << " threads";
   }
 }
@@ -67,7 +65,7 @@ TEST_P(SymmetricShapes, TopologyIsKeptWithEveryDistance) {
   const BettiNumbers betti = *CountBettiNumbers(object, {});  // flood fills would take seconds
   for (DistanceKind distance :
        {DistanceKind::kChamfer, DistanceKind::kChamferOptimal, DistanceKind::kEuclidean}) {
-    const Volume thin = Thin(object, distance, kind, 2);
+    const Volume thin = Thin(object, Symmetric(kind), 2, distance).thin;
     EXPECT_EQ(*CountBettiNumbers(thin, {}), betti);
     if (kind == SkeletonKind::kCurve || kind == SkeletonKind::kKernel) {
       EXPECT_EQ(test::ReferenceSimpleNonEndPoints(test::ReferencePointSet(thin)), 0u);

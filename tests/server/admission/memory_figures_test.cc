@@ -12,6 +12,7 @@
 
 #include "core/pipeline/skeletonize_within.h"
 #include "server/admission/memory_estimate.h"
+#include "tests/support/cell_patterns.h"
 
 namespace {
 
@@ -52,6 +53,8 @@ void operator delete(void* block, size_t, std::align_val_t) noexcept { Discount(
 namespace bccskel::server {
 namespace {
 
+using test::IsDust, test::IsIn, test::Net;
+
 // Grants everything and remembers how much.
 class CountedMemory final : public exec::MemoryBudget {
  public:
@@ -66,18 +69,6 @@ class CountedMemory final : public exec::MemoryBudget {
   uint64_t taken_ = 0;
 };
 
-using IsIn = std::function<bool(int32_t i, int32_t j, int32_t k, int sublattice)>;
-
-bool IsDust(int32_t i, int32_t j, int32_t k, int sublattice) {
-  return sublattice == 0 && (i + j + k) % 2 == 0;
-}
-
-IsIn Net(int32_t step) {
-  return [step](int32_t i, int32_t j, int32_t k, int sublattice) {
-    return sublattice == 0 && (i % step == 0) + (j % step == 0) + (k % step == 0) >= 2;
-  };
-}
-
 // So many percent of the points, at random.
 IsIn Noise(uint64_t percent) {
   return [percent](int32_t i, int32_t j, int32_t k, int sublattice) {
@@ -86,23 +77,8 @@ IsIn Noise(uint64_t percent) {
   };
 }
 
-Volume VolumeOf(const IsIn& is_in) {
-  constexpr int32_t kCells = 32;
-  VolumeBuilder builder({kCells, kCells, kCells});
-  for (int32_t k = 0; k < kCells; ++k) {
-    for (int32_t j = 0; j < kCells; ++j) {
-      for (int32_t i = 0; i < kCells; ++i) {
-        for (const int s : {0, 1}) {
-          if (is_in(i, j, k, s)) builder.Add({2 * i + s, 2 * j + s, 2 * k + s});
-        }
-      }
-    }
-  }
-  return *std::move(builder).Build();
-}
-
 void ExpectCovered(const IsIn& is_in, const SkeletonizeOptions& options = {}) {
-  const Volume volume = VolumeOf(is_in);
+  const Volume volume = test::VolumeOfCells({32, 32, 32}, is_in);
   CountedMemory memory;
   const int64_t before = allocated;
   peak = before;

@@ -7,10 +7,13 @@
 
 #include "core/export/surface/cell_grid.h"
 #include "tests/support/contexts.h"
+#include "tests/support/enclosed_volume.h"
 #include "tests/support/random_objects.h"
 
 namespace bccskel {
 namespace {
+
+using test::EnclosedBy;
 
 CellGrid GridOf(std::span<const LatticePoint> points, int halvings) {
   CellGrid grid = CellGrid::Of(VolumeOfPoints(points));
@@ -27,16 +30,6 @@ std::vector<LatticePoint> OddBox(const LatticePoint& low, const LatticePoint& hi
     }
   }
   return points;
-}
-
-double EnclosedBy(const SurfaceMesh& mesh) {
-  double sum = 0;
-  for (const auto& [i, j, k] : mesh.triangles) {
-    const SurfaceVertex &a = mesh.vertices[i], &b = mesh.vertices[j], &c = mesh.vertices[k];
-    sum += a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
-           a[2] * (b[0] * c[1] - b[1] * c[0]);
-  }
-  return sum / 6;
 }
 
 void ExpectClosed(const SurfaceMesh& mesh) {

@@ -9,6 +9,7 @@
 
 #include "core/export/surface/surface_mesh.h"
 #include "tests/support/contexts.h"
+#include "tests/support/enclosed_volume.h"
 #include "tests/support/random_objects.h"
 #include "tests/support/reference_betti.h"
 
@@ -77,17 +78,6 @@ int64_t ComponentsOf(const SurfaceMesh& mesh) {
   return std::ssize(roots);
 }
 
-// Six times the volume that the surface encloses.
-double EnclosedSixfold(const SurfaceMesh& mesh) {
-  double sum = 0;
-  for (const auto& [i, j, k] : mesh.triangles) {
-    const SurfaceVertex &a = mesh.vertices[i], &b = mesh.vertices[j], &c = mesh.vertices[k];
-    sum += a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
-           a[2] * (b[0] * c[1] - b[1] * c[0]);
-  }
-  return sum;
-}
-
 TEST(ExtractSurfaceTest, AnEmptyObjectHasNone) {
   const SurfaceMesh mesh = SurfaceOf({});
   EXPECT_TRUE(mesh.vertices.empty());
@@ -98,7 +88,7 @@ TEST(ExtractSurfaceTest, APointIsCoveredByItsTwentyFourTetrahedra) {
   const SurfaceMesh mesh = SurfaceOf({{{4, 4, 4}}});
   EXPECT_EQ(mesh.vertices.size(), 14u);
   EXPECT_EQ(mesh.triangles.size(), 24u);
-  EXPECT_GT(EnclosedSixfold(mesh), 0);
+  EXPECT_GT(test::EnclosedBy(mesh), 0);
 }
 
 TEST(ExtractSurfaceTest, PointsAtTheEndsOfTheExtentAreCoveredToo) {
@@ -126,7 +116,7 @@ TEST(ExtractSurfaceTest, BlobsAreEnclosedByAboutTheirVolume) {
     const SurfaceMesh mesh = SurfaceOf(points);
     ExpectClosedManifold(mesh);
     // A lattice point stands for four cubic lattice units.
-    const double enclosed = EnclosedSixfold(mesh) / 6 / 4;
+    const double enclosed = test::EnclosedBy(mesh) / 4;
     EXPECT_NEAR(enclosed / static_cast<double>(points.size()), 1, 0.03) << "seed " << seed;
   }
 }
