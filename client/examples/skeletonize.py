@@ -23,6 +23,7 @@ import grpc
 import numpy as np
 
 from bccskel.v1 import rpc_details_pb2
+from bccskel.v1 import skeleton_pb2
 from bccskel.v1 import skeletonization_service_pb2 as service
 from bccskel.v1 import skeletonization_service_pb2_grpc as service_grpc
 from bccskel.v1 import volume_pb2
@@ -34,6 +35,7 @@ CHUNK_BYTES = 1 << 19
 class Skeleton:
     kind: list         # per node: skeleton_pb2.SkeletonNodeKind
     node: np.ndarray   # per node: lattice point, shape (nodes, 3)
+    node_radii: np.ndarray   # per node: its distance to the background, in world units
     ends: np.ndarray   # per edge: its source and target node, shape (edges, 2)
     paths: list        # per edge: its lattice points from source to target, shape (points, 3)
     shifts: list       # per edge: offset of each point to the middle, in lattice units; 0 at nodes
@@ -72,24 +74,36 @@ class Skeleton:
         return graph
 
     def write_swc(self, name):
-        """Trees of points with radii. SWC cannot hold loops: each is cut at one of its steps."""
+        """Trees of points of the smooth curves. SWC cannot hold loops: each is cut at one step."""
         import networkx
-        steps, radius = networkx.Graph(), {}
-        for path, radii in zip(self.paths, self.radii):
-            points = [tuple(point) for point in path]
-            radius.update(zip(points, radii))
-            networkx.add_path(steps, points)
-        steps.add_nodes_from(radius)
+        places, radii, steps = list(self.world(self.node)), list(self.node_radii), networkx.Graph()
+        steps.add_nodes_from(range(len(places)))
+        for edge, (source, target) in enumerate(self.ends):
+            first = len(places)
+            places.extend(self.curve(edge)[1:-1])
+            radii.extend(self.radii[edge][1:-1])
+            networkx.add_path(steps, [source, *range(first, len(places)), target])
+        rows = {}  # in the order of the file: the parent of each point
+        for component in networkx.connected_components(steps):
+            root = min(component)
+            rows[root] = None
+            rows.update((child, parent) for parent, child in networkx.bfs_edges(steps, root))
+        trees = list(rows.values()).count(None)
+        loops = steps.number_of_edges() - len(rows) + trees
+        number = {point: n + 1 for n, point in enumerate(rows)}
+        types = {skeleton_pb2.SKELETON_NODE_KIND_END: 6,
+                 skeleton_pb2.SKELETON_NODE_KIND_JUNCTION: 5}
         with open(name, "w", encoding="ascii") as file:
-            number = {}
-            for component in networkx.connected_components(steps):
-                root = min(component)
-                parent = dict((child, at) for at, child in networkx.bfs_edges(steps, root))
-                for point in networkx.bfs_tree(steps, root):
-                    number[point] = len(number) + 1
-                    x, y, z = self.world([point])[0]
-                    file.write(f"{number[point]} 0 {x:.9g} {y:.9g} {z:.9g} {radius[point]:.9g} "
-                               f"{number[parent[point]] if point in parent else -1}\n")
+            file.write(f"# curve skeleton by bccskel, {trees} tree{'s' * (trees != 1)}\n")
+            if loops:
+                file.write(f"# SWC holds trees only: {loops} loop{'s' * (loops != 1)} cut\n")
+            file.write("# x, y, z and radius in the unit of the spacing; curve: smooth\n"
+                       "# types: 6 end, 5 junction, 0 other\n# id type x y z radius parent\n")
+            for point, parent in rows.items():
+                kind = types.get(self.kind[point], 0) if point < len(self.kind) else 0
+                x, y, z = places[point]
+                file.write(f"{number[point]} {kind} {x:.9g} {y:.9g} {z:.9g} {radii[point]:.9g} "
+                           f"{number.get(parent, -1)}\n")
 
 
 def smoothed(path):
@@ -169,8 +183,8 @@ def skeletonize(channel, array, on_progress=None, timeout=600, **volume):
 
 def empty_columns():
     """The tables that add() fills and assemble() reads."""
-    return {name: [] for name in ("kind", "node", "ends", "count", "point", "shift", "radius",
-                                  "sheet", "sheet_radius")}
+    return {name: [] for name in ("kind", "node", "node_radius", "ends", "count", "point", "shift",
+                                  "radius", "sheet", "sheet_radius")}
 
 
 def add(columns, chunk):
@@ -178,6 +192,7 @@ def add(columns, chunk):
     nodes, edges, points = chunk.nodes, chunk.edges, chunk.points
     columns["kind"].extend(nodes.kind)
     columns["node"].extend(zip(nodes.x, nodes.y, nodes.z))
+    columns["node_radius"].extend(nodes.radius)
     columns["ends"].extend(zip(edges.source, edges.target))
     columns["count"].extend(edges.point_count)
     columns["point"].extend(zip(points.x, points.y, points.z))
@@ -204,6 +219,7 @@ def assemble(columns, summary):
     return Skeleton(
         kind=columns["kind"],
         node=np.array(columns["node"], dtype=np.int32).reshape(-1, 3),
+        node_radii=np.array(columns["node_radius"]) * unit,
         ends=np.array(columns["ends"], dtype=np.int32).reshape(-1, 2),
         paths=np.split(points, cuts) if has_edges else [],
         shifts=np.split(shifts, cuts) if has_edges else [],

@@ -107,18 +107,46 @@ class ExampleTest(ServerTest):
                 self.assertEqual(self.skeletonize(mask).summary.certificate.mask.components > 0,
                                  mask.any())
 
-    def test_a_graph_and_an_swc_file_come_of_a_mask(self):
+    def test_a_graph_comes_of_a_mask(self):
         skeleton = self.skeletonize(self.ring(np.array([1.0, 1.0, 1.0])))
         graph = skeleton.to_networkx()
         self.assertEqual(graph.number_of_edges() - graph.number_of_nodes(), 0)
         self.assertAlmostEqual(sum(d["length"] for _, _, d in graph.edges(data=True)),
                                2 * np.pi * 20, delta=6)
-        with tempfile.NamedTemporaryFile(suffix=".swc") as file:
+
+    def swc(self, skeleton):
+        """The comments and the rows of its SWC file."""
+        with tempfile.NamedTemporaryFile(suffix=".swc", mode="r") as file:
             skeleton.write_swc(file.name)
-            rows = np.loadtxt(file.name)
+            lines = file.read().splitlines()
+        comments = [line for line in lines if line.startswith("#")]
+        return comments, np.array([row.split() for row in lines[len(comments):]], float)
+
+    def test_an_swc_file_holds_the_smooth_curves(self):
+        skeleton = self.skeletonize(self.ring(np.array([1.0, 1.0, 1.0])))
+        comments, rows = self.swc(skeleton)
         self.assertEqual(len(rows), skeleton.summary.skeleton_points)
         self.assertEqual((rows[:, 6] == -1).sum(), 1)
         self.assertTrue((rows[1:, 6] < rows[1:, 0]).all(), "a parent comes after its child")
+        parents = rows[rows[1:, 6].astype(int) - 1, 2:5]
+        length = np.linalg.norm(rows[1:, 2:5] - parents, axis=1).sum()
+        self.assertAlmostEqual(length, 2 * np.pi * 20, delta=6)
+        self.assertIn("1 tree", comments[0])
+        self.assertIn("1 loop cut", "\n".join(comments))
+        self.assertEqual(comments[-1], "# id type x y z radius parent")
+
+    def test_an_swc_file_states_ends_junctions_and_points_without_edge(self):
+        cells = np.zeros((40, 60, 90), dtype=bool)
+        cells[5:15, 5:15, 5:85] = cells[5:15, 5:55, 40:50] = True  # a T
+        cells[30, 30, 30] = True                                   # one voxel
+        comments, rows = self.swc(self.skeletonize(cells))
+        self.assertIn("2 trees", comments[0])
+        self.assertNotIn("loop", "\n".join(comments))
+        self.assertEqual((rows[:, 6] == -1).sum(), 2)
+        self.assertEqual([(rows[:, 1] == kind).sum() for kind in (5, 6)], [1, 3])
+        children = np.bincount(rows[rows[:, 6] > 0, 6].astype(int), minlength=len(rows) + 1)[1:]
+        np.testing.assert_array_less(1, children[rows[:, 1] == 5] + 1)
+        self.assertTrue((rows[:, 5] > 0).all())
 
     def test_curves_use_the_shifts_below_the_lattice(self):
         skeleton = self.skeletonize(example.torus())
