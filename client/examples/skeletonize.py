@@ -136,16 +136,20 @@ def mask_bricks(mask):
 
 
 def declare(array, spacing, origin, direction):
-    """The declaration that the server needs first, and the bytes."""
+    """The declaration that the server needs first, and the bytes. Raises ValueError for an array or
+    a spacing of another shape. A value that is not a number belongs to no object."""
+    if array.ndim != 3 and (array.ndim != 4 or array.shape[0] != 2):
+        raise ValueError("an array has the shape (nz, ny, nx) or (2, nx, ny, nz), not "
+                         f"{array.shape}")
+    inside = (array != 0) & (array == array)
     placement = volume_pb2.Placement(spacing=np.broadcast_to(spacing, 3), origin=origin,
                                      direction=np.ravel(direction))
     if array.ndim == 3:
-        mask = array != 0
-        data = np.packbits(mask, axis=None, bitorder="little").tobytes()
-        nz, ny, nx = mask.shape
-        encoding, bricks = volume_pb2.VOLUME_ENCODING_CUBIC_MASK, mask_bricks(mask)
+        data = np.packbits(inside, axis=None, bitorder="little").tobytes()
+        nz, ny, nx = array.shape
+        encoding, bricks = volume_pb2.VOLUME_ENCODING_CUBIC_MASK, mask_bricks(inside)
     else:
-        data = raw_planes(array)
+        data = raw_planes(inside)
         _, nx, ny, nz = array.shape
         encoding, bricks = volume_pb2.VOLUME_ENCODING_RAW_PLANES, 0
     return volume_pb2.VolumeDeclaration(
@@ -154,10 +158,14 @@ def declare(array, spacing, origin, direction):
 
 
 def requests(array, spacing=1.0, origin=(0, 0, 0), direction=np.eye(3), options=None):
-    """Config, chunks, finish."""
-    declaration, data = declare(array, spacing, origin, direction)
-    yield service.SkeletonizeRequest(config=service.SkeletonizeConfig(
-        volume=declaration, options=options))
+    """Config, chunks, finish. Raises at once what declare() raises: gRPC would hide what the
+    sequence raises."""
+    declaration, data = declare(np.asarray(array), spacing, origin, direction)
+    return sequence(service.SkeletonizeConfig(volume=declaration, options=options), data)
+
+
+def sequence(config, data):
+    yield service.SkeletonizeRequest(config=config)
     for offset in range(0, len(data), CHUNK_BYTES):
         yield service.SkeletonizeRequest(chunk=volume_pb2.VolumeChunk(
             offset=offset, data=data[offset:offset + CHUNK_BYTES]))
@@ -166,8 +174,9 @@ def requests(array, spacing=1.0, origin=(0, 0, 0), direction=np.eye(3), options=
 
 
 def skeletonize(channel, array, on_progress=None, timeout=600, **volume):
-    """One call. `volume`: spacing, origin, direction, options. Raises grpc.RpcError; error_reason()
-    reads its reason. Origin is the world position of voxel, or lattice point, (0, 0, 0)."""
+    """One call. `volume`: spacing, origin, direction, options. Raises grpc.RpcError, whose reason
+    error_reason() reads, and ValueError as declare(). Origin is the world position of voxel, or
+    lattice point, (0, 0, 0)."""
     columns = empty_columns()
     stub = service_grpc.SkeletonizationServiceStub(channel)
     summary = None
@@ -264,6 +273,8 @@ def main():
     try:
         with grpc.insecure_channel(arguments.server) as channel:
             skeleton = skeletonize(channel, array, spacing=arguments.spacing)
+    except ValueError as error:
+        sys.exit(f"{arguments.array or 'torus'}: {error}")
     except grpc.RpcError as error:
         sys.exit(f"{error.code().name} ({error_reason(error)}): {error.details()}")
     betti = skeleton.summary.certificate.skeleton

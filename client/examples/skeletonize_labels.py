@@ -48,11 +48,15 @@ def declare(volume, spacing):
 
 
 def requests(volume, spacing, config):
-    """Config, chunks, finish."""
+    """Config, chunks, finish. Raises at once what is wrong with the arguments: gRPC would hide what
+    the sequence raises."""
     volume = np.ascontiguousarray(volume, dtype=volume.dtype.newbyteorder("<"))
-    yield service.SkeletonizeLabelsRequest(config=service.SkeletonizeLabelsConfig(
-        volume=declare(volume, spacing), **config))
-    data = volume.tobytes()
+    return sequence(service.SkeletonizeLabelsConfig(volume=declare(volume, spacing), **config),
+                    volume.tobytes())
+
+
+def sequence(config, data):
+    yield service.SkeletonizeLabelsRequest(config=config)
     for offset in range(0, len(data), CHUNK_BYTES):
         yield service.SkeletonizeLabelsRequest(chunk=volume_pb2.VolumeChunk(
             offset=offset, data=data[offset:offset + CHUNK_BYTES]))

@@ -148,6 +148,24 @@ class ExampleTest(ServerTest):
         np.testing.assert_array_less(1, children[rows[:, 1] == 5] + 1)
         self.assertTrue((rows[:, 5] > 0).all())
 
+    def test_voxels_that_are_not_a_number_are_background(self):
+        mask = self.ring(np.array([1.0, 1.0, 1.0]))
+        values = np.where(mask, np.inf, np.nan)
+        values[:, :, :30] *= -1
+        digest = self.skeletonize(mask).summary.sha256
+        self.assertEqual(self.skeletonize(values).summary.sha256, digest)
+        cells = example.torus()
+        self.assertEqual(self.skeletonize(np.where(cells, 2.5, np.nan)).summary.sha256,
+                         self.skeletonize(cells).summary.sha256)
+
+    def test_an_array_of_another_shape_is_refused_with_its_shape(self):
+        for shape in ((20, 30), (7,), (3, 9, 9, 9), (2, 2, 9, 9, 9)):
+            with self.assertRaises(ValueError) as raised:
+                self.skeletonize(np.ones(shape))
+            self.assertIn(f"(2, nx, ny, nz), not {shape}", str(raised.exception))
+        with self.assertRaises(ValueError):
+            self.skeletonize(np.ones((4, 4, 4)), spacing=(1, 2))
+
     def test_curves_use_the_shifts_below_the_lattice(self):
         skeleton = self.skeletonize(example.torus())
         self.assertGreater(max(np.abs(shifts).max() for shifts in skeleton.shifts), 0)
@@ -195,6 +213,15 @@ class ExampleTest(ServerTest):
         self.assertEqual(ended.returncode, 0, ended.stderr)
         self.assertIn("1 components, 1 loops, 0 cavities", ended.stdout)
         self.assertIn("edge 0 - 0:", ended.stdout)
+
+    def test_the_script_says_why_it_refuses_an_array(self):
+        with tempfile.NamedTemporaryFile(suffix=".npy") as file:
+            np.save(file, np.ones((5, 6)))
+            file.flush()
+            ended = self.run_script(file.name, "--server", self.server.address)
+        self.assertEqual(ended.returncode, 1)
+        self.assertIn("not (5, 6)", ended.stderr)
+        self.assertNotIn("Traceback", ended.stderr)
 
     def test_the_script_says_why_it_failed(self):
         ended = self.run_script("--server", self.server.address, "--spacing", "-1")

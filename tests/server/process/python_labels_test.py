@@ -66,6 +66,8 @@ class LabelsTest(ServerTest):
                              (mask[0].astype("u1"), ValueError)):
             with self.assertRaises(error):
                 self.skeletons(wrong)
+        with self.assertRaises(ValueError):
+            self.skeletons(mask, spacing=(1, 2))
 
     def test_listed_labels_and_a_least_size(self):
         self.assertEqual(list(self.skeletons(image(), labels=[BLOCK, 12, RING])), [RING, BLOCK])
