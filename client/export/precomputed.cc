@@ -3,7 +3,6 @@
 #include <sys/stat.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cerrno>
 #include <cmath>
@@ -20,6 +19,7 @@
 
 #include "client/export/atomic_file.h"
 #include "core/exec/status_macros.h"
+#include "core/lattice/length_unit.h"
 
 namespace bccskel::exporting {
 namespace {
@@ -30,27 +30,6 @@ std::string InfoText() {
   return "{\"@type\":\"" + std::string(kKind) +
          "\",\n\"transform\":[1,0,0,0,0,1,0,0,0,0,1,0],\n\"vertex_attributes\":[{\"id\":\"radius\","
          "\"data_type\":\"float32\",\"num_components\":1}]}\n";
-}
-
-// The number of nanometers in a unit; nullopt for an unknown one.
-std::optional<double> NanometersOf(std::string_view unit) {
-  constexpr std::array<std::pair<std::string_view, double>, 11> kUnits = {{
-      {"A", 0.1},
-      {"angstrom", 0.1},
-      {"nm", 1},
-      {"um", 1e3},
-      {"\xc2\xb5m", 1e3},
-      {"micron", 1e3},
-      {"microns", 1e3},
-      {"micrometer", 1e3},
-      {"mm", 1e6},
-      {"cm", 1e7},
-      {"m", 1e9},
-  }};
-  const auto* const known =
-      std::ranges::find(kUnits, unit, [](const auto& entry) { return entry.first; });
-  if (known == kUnits.end()) return std::nullopt;
-  return known->second;
 }
 
 void Append(std::string& bytes, uint32_t word) {

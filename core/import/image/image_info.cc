@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "absl/strings/ascii.h"
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
@@ -140,33 +139,6 @@ absl::StatusOr<ImageSize> SizeOfAxes(std::span<const int64_t> lengths, const Ima
                         size.ny, size.nz, size.Voxels(), limits.max_voxels));
   }
   return size;
-}
-
-std::string UnitNamed(std::string_view name) {
-  struct Names {
-    const char* unit;
-    std::string_view names;  // between bars
-  };
-  // Micro and angstrom also have signs: in UTF-8 two of each, in Latin-1, in XML and as ImageJ's.
-  constexpr std::array<Names, 6> kUnits = {{
-      {"um",
-       "|um|micron|microns|micrometer|micrometers|micrometre|micrometres|\xc2\xb5m|\xce\xbcm|\xb5m|"
-       "\\u00B5m|\\u00b5m|\\u03BCm|\\u03bcm|&#181;m|&#xb5;m|&#xB5;m|"},
-      {"nm", "|nm|nanometer|nanometers|nanometre|nanometres|"},
-      {"mm", "|mm|millimeter|millimeters|millimetre|millimetres|"},
-      {"cm", "|cm|centimeter|centimeters|centimetre|centimetres|"},
-      {"m", "|m|meter|meters|metre|metres|"},
-      {"angstrom", "|angstrom|angstroms|\xc3\x85|\xe2\x84\xab|\xc5|\\u00C5|\\u212B|"},
-  }};
-  const std::string wanted = absl::StrFormat("|%s|", name);
-  for (const Names& entry : kUnits) {
-    if (entry.names.find(wanted) != entry.names.npos) return entry.unit;
-  }
-  const bool plain = std::ranges::all_of(name, [](const char c) {
-    return absl::ascii_isalnum(static_cast<unsigned char>(c)) || c == ' ' || c == '_' || c == '-';
-  });
-  constexpr size_t kLongest = 32;
-  return plain && name.size() <= kLongest ? std::string(name) : std::string();
 }
 
 absl::StatusOr<Placement> PlacementOfSpacing(const std::array<double, 3>& spacing,

@@ -66,11 +66,6 @@ struct ImageInfo {
 //         RESOURCE_EXHAUSTED for an axis, a slice or an image over its limit.
 absl::StatusOr<ImageSize> SizeOfAxes(std::span<const int64_t> lengths, const ImageLimits& limits);
 
-// The short name of a unit of length that a file may write in many ways: "um" for "\u00B5m" as
-// ImageJ escapes it, for "micron", ... Other names stay if they are plain words, since results of
-// every format repeat them; the rest is unknown.
-std::string UnitNamed(std::string_view name);
-
 // Errors: INVALID_ARGUMENT for a spacing that is not positive or numbers that are not finite.
 absl::StatusOr<Placement> PlacementOfSpacing(const std::array<double, 3>& spacing,
                                              const WorldPoint& origin);

@@ -8,6 +8,7 @@
 #include "core/exec/status_macros.h"
 #include "core/import/image/header_text.h"
 #include "core/import/image/image_headers.h"
+#include "core/lattice/length_unit.h"
 
 namespace bccskel {
 namespace {

@@ -1,4 +1,5 @@
 // NRRD, by teem's definition of the format, versions 1 to 5.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -7,6 +8,7 @@
 
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
+#include "core/import/image/axis_units.h"
 #include "core/import/image/header_text.h"
 #include "core/import/image/image_headers.h"
 
@@ -123,12 +125,29 @@ absl::StatusOr<std::vector<std::optional<WorldPoint>>> VectorsOf(std::string_vie
 struct AxisFields {
   std::vector<std::optional<WorldPoint>> steps;  // empty without "space directions"
   std::vector<double> spacings;                  // NaN where nobody knows; empty if not stated
+  std::vector<std::string> units;                // empty if not stated
 
   bool IsOfValues(size_t axis) const {
     if (axis < steps.size()) return !steps[axis].has_value();
     return axis < spacings.size() && std::isnan(spacings[axis]);
   }
 };
+
+// The texts between quotes, also empty ones; without quotes the words.
+std::vector<std::string> NrrdUnitsOf(std::string_view text) {
+  std::vector<std::string> units;
+  const bool quoted = text.find('"') != text.npos;
+  if (!quoted) {
+    for (const std::string_view word : Words(text)) units.emplace_back(word);
+  }
+  while (quoted && text.find('"') != text.npos) {
+    text.remove_prefix(text.find('"') + 1);
+    const size_t end = std::min(text.find('"'), text.size());
+    units.emplace_back(Trimmed(text.substr(0, end)));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return units;
+}
 
 absl::StatusOr<AxisFields> AxisFieldsOf(const HeaderFields& fields) {
   AxisFields axes;
@@ -137,6 +156,7 @@ absl::StatusOr<AxisFields> AxisFieldsOf(const HeaderFields& fields) {
   } else if (const auto spacings = fields.Find({"spacings"}); spacings.has_value()) {
     BCCSKEL_ASSIGN_OR_RETURN(axes.spacings, ParseNumbers<double>("spacings", *spacings));
   }
+  axes.units = NrrdUnitsOf(fields.Find({"units"}).value_or(""));
   return axes;
 }
 
@@ -146,9 +166,30 @@ void DropAxisOfOneValue(std::vector<int64_t>& sizes, AxisFields& axes) {
   sizes.erase(sizes.begin());
   if (!axes.steps.empty()) axes.steps.erase(axes.steps.begin());
   if (!axes.spacings.empty()) axes.spacings.erase(axes.spacings.begin());
+  if (!axes.units.empty()) axes.units.erase(axes.units.begin());
 }
 
-absl::StatusOr<Placement> NrrdPlacementOf(const HeaderFields& fields, const AxisFields& axes) {
+// Of the coordinates of space or, where the file states those of its axes alone, of these. Then
+// directions must have one unit, since they lead along several axes.
+absl::StatusOr<CommonUnit> NrrdUnitOf(const HeaderFields& fields, const AxisFields& axes,
+                                      const std::vector<int64_t>& sizes) {
+  std::array<std::optional<std::string>, 3> units;
+  const auto space = fields.Find({"space units"});
+  const std::vector<std::string> stated = space.has_value() ? NrrdUnitsOf(*space) : axes.units;
+  for (size_t n = 0; n < std::min<size_t>(3, stated.size()); ++n) {
+    const bool alone = !space.has_value() && n < sizes.size() && sizes[n] == 1;
+    if (!alone || !stated[n].empty()) units[n] = stated[n];
+  }
+  BCCSKEL_ASSIGN_OR_RETURN(CommonUnit common, CommonUnitOf(units));
+  const bool converted = common.factors != CommonUnit().factors;
+  if (!converted || space.has_value() || axes.steps.empty()) return common;
+  return absl::UnimplementedError(
+      "units differ between axes and do not say in which unit the space directions are: state "
+      "'space units'");
+}
+
+absl::StatusOr<Placement> NrrdPlacementOf(const HeaderFields& fields, const AxisFields& axes,
+                                          const CommonUnit& unit) {
   WorldPoint origin = {0, 0, 0};
   if (const auto text = fields.Find({"space origin"}); text.has_value()) {
     BCCSKEL_ASSIGN_OR_RETURN(origin, VectorOf("space origin", *text));
@@ -156,6 +197,10 @@ absl::StatusOr<Placement> NrrdPlacementOf(const HeaderFields& fields, const Axis
   std::array<double, 3> spacing = {1, 1, 1};
   for (size_t axis = 0; axis < std::min<size_t>(3, axes.spacings.size()); ++axis) {
     if (!std::isnan(axes.spacings[axis])) spacing[axis] = axes.spacings[axis];
+  }
+  for (size_t n = 0; n < 3; ++n) {
+    spacing[n] *= unit.factors[n];
+    origin[n] *= unit.factors[n];
   }
   if (axes.steps.empty()) return PlacementOfSpacing(spacing, origin);
   std::array<WorldPoint, 3> steps = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
@@ -165,6 +210,7 @@ absl::StatusOr<Placement> NrrdPlacementOf(const HeaderFields& fields, const Axis
                       "has no direction for one of the first three axes");
     }
     steps[axis] = *axes.steps[axis];
+    for (size_t n = 0; n < 3; ++n) steps[axis][n] *= unit.factors[n];
   }
   return PlacementOfSteps(steps, origin);
 }
@@ -175,16 +221,6 @@ std::string NrrdWorldOf(const HeaderFields& fields) {
     if (name == space.name) return std::string(space.axes);
   }
   return "";
-}
-
-// "mm" where all axes have it.
-std::string NrrdUnitOf(const HeaderFields& fields) {
-  std::string unit;
-  for (const auto word : Words(fields.Find({"space units", "units"}).value_or(""), "\"")) {
-    if (!unit.empty() && unit != word) return "";
-    unit = word;
-  }
-  return UnitNamed(unit);
 }
 
 HeaderLine ClassifyNrrdLine(std::string_view line) {
@@ -237,8 +273,9 @@ absl::StatusOr<StoredImage> ParseNrrd(const ImageFront& front, const ImageLimits
   BCCSKEL_ASSIGN_OR_RETURN(image.info.size, SizeOfAxes(sizes, limits));
   BCCSKEL_ASSIGN_OR_RETURN(image.stored_type, NrrdTypeOf(fields));
   BCCSKEL_ASSIGN_OR_RETURN(image.byte_order, NrrdByteOrderOf(fields, image.stored_type));
-  BCCSKEL_ASSIGN_OR_RETURN(image.info.placement, NrrdPlacementOf(fields, axes));
-  image.info.unit = NrrdUnitOf(fields);
+  BCCSKEL_ASSIGN_OR_RETURN(const CommonUnit unit, NrrdUnitOf(fields, axes, sizes));
+  BCCSKEL_ASSIGN_OR_RETURN(image.info.placement, NrrdPlacementOf(fields, axes, unit));
+  image.info.unit = unit.unit;
   image.info.world = NrrdWorldOf(fields);
   BCCSKEL_RETURN_IF_ERROR(PlaceNrrdVoxels(front, fields, image));
   return image;

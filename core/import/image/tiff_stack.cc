@@ -5,9 +5,10 @@
 
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
+#include "core/import/image/axis_units.h"
 #include "core/import/image/header_text.h"
 #include "core/import/image/image_choice.h"
-#include "core/import/image/image_info.h"
+#include "core/lattice/length_unit.h"
 
 namespace bccskel {
 namespace {
@@ -100,22 +101,21 @@ std::optional<std::string_view> TagOf(std::string_view xml, std::string_view nam
   return tag.substr(0, tag.find('>'));
 }
 
-// Only what states one size for a unit is taken; Z may be unknown where there is one slice.
+// Z may be unknown where there is one slice.
 absl::Status TakePhysicalSize(std::string_view pixels, TiffStack& stack) {
-  std::optional<std::string> unit;
+  std::array<std::optional<std::string>, 3> units;
   for (size_t axis = 0; axis < 3; ++axis) {
     const std::string name = absl::StrFormat("PhysicalSize%c", "XYZ"[axis]);
     const auto size = Attribute(pixels, name);
     if (!size.has_value()) continue;
     BCCSKEL_ASSIGN_OR_RETURN(stack.spacing[axis], RequireNumber<double>(name, *size));
-    const std::string of_axis = UnitNamed(Attribute(pixels, name + "Unit").value_or("\xc2\xb5m"));
-    if (unit.has_value() && *unit != of_axis) {
-      return absl::UnimplementedError(absl::StrFormat(
-          "PhysicalSize is in %s along one axis and in %s along another", *unit, of_axis));
-    }
-    unit = of_axis;
+    units[axis] = Attribute(pixels, name + "Unit").value_or("\xc2\xb5m");
   }
-  stack.unit = unit.value_or("");
+  BCCSKEL_ASSIGN_OR_RETURN(const CommonUnit common, CommonUnitOf(units));
+  stack.unit = common.unit;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    if (stack.spacing[axis].has_value()) *stack.spacing[axis] *= common.factors[axis];
+  }
   return absl::OkStatus();
 }
 

@@ -1,11 +1,13 @@
 // The attributes of an OME-Zarr group.
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <optional>
+#include <string>
 #include <string_view>
-#include <utility>
 
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
+#include "core/import/image/axis_units.h"
 #include "core/import/image/header_text.h"
 #include "core/import/image/image_choice.h"
 #include "core/import/image/json_metadata.h"
@@ -39,34 +41,23 @@ absl::Status ReadAxes(const Json& axes, ZarrLevel& level) {
   return absl::OkStatus();
 }
 
-// As other formats name it.
-std::string UnitOf(const std::string& name) {
-  constexpr std::array<std::pair<std::string_view, const char*>, 6> kUnits = {{
-      {"angstrom", "A"},
-      {"nanometer", "nm"},
-      {"micrometer", "um"},
-      {"millimeter", "mm"},
-      {"centimeter", "cm"},
-      {"meter", "m"},
-  }};
-  for (const auto& [written, unit] : kUnits) {
-    if (name == written) return unit;
-  }
-  return name.substr(0, 32);
-}
-
-absl::Status ReadUnit(const Json& axes, ZarrLevel& level) {
-  bool first = true;
+// The last step, after all transformations.
+absl::Status ConvertToOneUnit(const Json& axes, ZarrLevel& level) {
+  constexpr std::string_view kSpace = "xyz";
+  std::array<std::optional<std::string>, 3> units;
   for (size_t n = 0; axes.is_array() && n < axes.size(); ++n) {
-    if (level.axes[n] == 't' || level.axes[n] == 'c') continue;
+    const size_t axis = kSpace.find(level.axes[n]);
+    if (axis == kSpace.npos) continue;
     const Json& unit = MemberOf(axes[n], "unit");
-    const std::string name = unit.is_string() ? UnitOf(unit.get<std::string>()) : "";
-    if (!first && name != level.unit) {
-      return absl::UnimplementedError(
-          absl::StrFormat("one axis of space is in '%s' and another in '%s'", level.unit, name));
-    }
-    level.unit = name;
-    first = false;
+    units[axis] = unit.is_string() ? unit.get<std::string>() : "";
+  }
+  BCCSKEL_ASSIGN_OR_RETURN(const CommonUnit common, CommonUnitOf(units));
+  level.unit = common.unit;
+  for (size_t n = 0; n < level.axes.size(); ++n) {
+    const size_t axis = kSpace.find(level.axes[n]);
+    if (axis == kSpace.npos) continue;
+    level.scale[n] *= common.factors[axis];
+    level.translation[n] *= common.factors[axis];
   }
   return absl::OkStatus();
 }
@@ -136,11 +127,11 @@ absl::StatusOr<ZarrLevel> ParseMultiscales(const Json& attributes, const ImageOp
   BCCSKEL_ASSIGN_OR_RETURN(level.path, TextOf("path", MemberOf(dataset, "path")));
   BCCSKEL_RETURN_IF_ERROR(CheckPath(level.path));
   BCCSKEL_RETURN_IF_ERROR(ReadAxes(MemberOf(image, "axes"), level));
-  BCCSKEL_RETURN_IF_ERROR(ReadUnit(MemberOf(image, "axes"), level));
   level.scale.assign(level.axes.size(), 1);
   level.translation.assign(level.axes.size(), 0);
   BCCSKEL_RETURN_IF_ERROR(Apply(MemberOf(dataset, "coordinateTransformations"), level));
   BCCSKEL_RETURN_IF_ERROR(Apply(MemberOf(image, "coordinateTransformations"), level));
+  BCCSKEL_RETURN_IF_ERROR(ConvertToOneUnit(MemberOf(image, "axes"), level));
   return level;
 }
 

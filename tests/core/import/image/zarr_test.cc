@@ -271,10 +271,6 @@ TEST(Zarr, RefusesGroupsThatAreNotRead) {
   EXPECT_THAT(with_steps(R"([{"type":"scale","scale":[1,2]}])"), HasSubstr("2 numbers for 3 axes"));
   EXPECT_THAT(with_steps(R"([{"type":"scale","scale":[1,2,0]}])"), HasSubstr("positive"));
   EXPECT_THAT(with_steps(R"([{"type":"affine"}])"), HasSubstr("neither a scale nor"));
-  EXPECT_THAT(error_of(Multiscales(absl::StrReplaceAll(
-                  kAxes + "," + kDatasets, {{R"("x","type":"space","unit":"micrometer")",
-                                             R"("x","type":"space","unit":"nanometer")"}}))),
-              HasSubstr("'um' and another in 'nm'"));
 }
 
 TEST(Zarr, RefusesVersion3InClearWords) {
