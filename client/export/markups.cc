@@ -1,5 +1,6 @@
 #include "client/export/markups.h"
 
+#include <algorithm>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "client/export/picture/escape.h"
 #include "client/export/sampled_curve.h"
 #include "client/export/text.h"
+#include "core/lattice/length_unit.h"
 #include "core/skeleton/skeleton_figures.h"
 
 namespace bccskel::exporting {
@@ -17,10 +19,30 @@ constexpr std::string_view kSchema =
     "https://raw.githubusercontent.com/slicer/slicer/master/Modules/Loadable/Markups/Resources/"
     "Schema/markups-schema-v1.0.3.json#";
 
+// Slicer shows images in mm. One of the numbers is 1, so that nothing is rounded twice.
+struct Millimeters {
+  double times = 1;
+  double per = 1;
+
+  double Of(double length) const { return length * times / per; }
+};
+
+Millimeters MillimetersOf(const World& world) {
+  constexpr double kNanometers = 1e6;
+  const double unit = NanometersOf(world.unit).value_or(kNanometers);
+  return {.times = std::max(1.0, unit / kNanometers), .per = std::max(1.0, kNanometers / unit)};
+}
+
+std::string UnitIn(const World& world) {
+  return NanometersOf(world.unit).has_value() ? "mm" : world.unit;
+}
+
 void AddMeasurement(Text& text, std::string_view before, std::string_view name, double value,
                     const World& world) {
-  text.Add(before, "{\"name\":\"", name, "\",\"enabled\":false,\"value\":", value);
-  if (!world.unit.empty()) text.Add(",\"units\":", JsonString(world.unit));
+  const std::string unit = UnitIn(world);
+  text.Add(before, "{\"name\":\"", name,
+           "\",\"enabled\":false,\"value\":", MillimetersOf(world).Of(value));
+  if (!unit.empty()) text.Add(",\"units\":", JsonString(unit));
   text.Add('}');
 }
 
@@ -33,11 +55,13 @@ std::string_view SystemOf(const World& world) {
 
 void AddPoints(Text& text, const std::vector<CurvePoint>& curve, const World& world) {
   const double sign = IsTurned(world) ? -1 : 1;
+  const Millimeters mm = MillimetersOf(world);
   for (size_t n = 0; n < curve.size(); ++n) {
     const WorldPoint& p = curve[n].at;
     text.Add(n == 0 ? "\n" : ",\n", "{\"id\":\"", n + 1,
-             "\",\"label\":\"\",\"description\":\"radius ", static_cast<float>(curve[n].radius),
-             "\",\"position\":[", sign * p[0], ',', p[1], ',', p[2],
+             "\",\"label\":\"\",\"description\":\"radius ",
+             static_cast<float>(mm.Of(curve[n].radius)), "\",\"position\":[", mm.Of(sign * p[0]),
+             ',', mm.Of(p[1]), ',', mm.Of(p[2]),
              "],\"selected\":true,\"locked\":false,\"visibility\":true,"
              "\"positionStatus\":\"defined\"}");
   }
@@ -52,7 +76,7 @@ void AddCurve(Text& text, const SkeletonGraph& graph, size_t n, const GraphConte
   const EdgeFigures figures = FiguresOf(graph, edge);
   text.Add("{\"type\":\"", closed ? "ClosedCurve" : "Curve", "\",\"coordinateSystem\":\"",
            SystemOf(world), '"');
-  if (world.unit == "mm") text.Add(",\"coordinateUnits\":\"mm\"");
+  if (UnitIn(world) == "mm") text.Add(",\"coordinateUnits\":\"mm\"");
   text.Add(",\"name\":\"", BranchName(context.labels, n),
            "\",\"locked\":true,\"fixedNumberOfControlPoints\":false,\"labelFormat\":\"\","
            "\"lastUsedControlPointNumber\":",
@@ -71,10 +95,18 @@ void AddCurve(Text& text, const SkeletonGraph& graph, size_t n, const GraphConte
 }  // namespace
 
 std::string NoteOn(const World& world) {
-  if (world.axes == "RAS" || world.axes == "LPS") return "";
-  if (IsTurned(world))
-    return "the input's world is LAS; written as RAS, with the sign of x reversed";
-  return "the input does not state whether its world is RAS or LPS; written as LPS";
+  std::string note;
+  if (IsTurned(world)) {
+    note = "the input's world is LAS; written as RAS, with the sign of x reversed";
+  } else if (world.axes != "RAS" && world.axes != "LPS") {
+    note = "the input does not state whether its world is RAS or LPS; written as LPS";
+  }
+  std::string on_unit = NoteOnUnit(world, "millimeters");
+  if (on_unit.empty() && UnitNamed(world.unit) != "mm") {
+    on_unit = "the input's unit is " + world.unit + "; coordinates are written in mm";
+  }
+  const bool both = !note.empty() && !on_unit.empty();
+  return note + (both ? "; " : "") + on_unit;
 }
 
 MarkupsDocument WriteMarkups(const SkeletonGraph& graph, const GraphContext& context,

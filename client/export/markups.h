@@ -15,12 +15,13 @@ struct MarkupsDocument {
   std::string note;
 };
 
-// The note of WriteMarkups() about a world with unknown axes; empty for RAS and LPS.
+// The note of WriteMarkups() about a world with other axes or another unit; empty for RAS and LPS
+// in mm.
 std::string NoteOn(const World& world);
 
 // 3D Slicer's markups, schema 1.0.3: an open or closed curve per edge, named "branch N" or, with
 // labels, "label L branch N", with its length and radii as measurements. Coordinates are RAS or
-// LPS, as in `world`; any other is taken as LPS, which the note states.
+// LPS, as in `world`, in mm; any other is taken as LPS and in mm, which the note states.
 MarkupsDocument WriteMarkups(const SkeletonGraph& graph, const GraphContext& context,
                              const World& world);
 

@@ -131,12 +131,7 @@ class Composer {
 };
 
 std::string NoteOf(const SkeletonGraph& graph, const World& world) {
-  std::string note;
-  if (!NanometersOf(world.unit).has_value()) {
-    note = world.unit.empty() ? "the input does not state its unit of length"
-                              : "the unit '" + world.unit + "' is not a known unit of length";
-    note += "; coordinates are taken for nanometers";
-  }
+  std::string note = NoteOnUnit(world, "nanometers");
   if (!graph.sheets.empty()) {
     note += std::string(note.empty() ? "" : "; ") + std::to_string(graph.sheets.size()) +
             " points of sheets are left out";

@@ -116,6 +116,41 @@ TEST(MarkupsTest, ALoopWithoutJunctionIsAClosedCurve) {
   EXPECT_NE(curve["controlPoints"].front()["position"], curve["controlPoints"].back()["position"]);
 }
 
+TEST(MarkupsTest, AreInMillimetersAsSlicersImagesAre) {
+  const std::pair<const char*, double> units[] = {{"um", 1e-3}, {"m", 1e3}, {"mm", 1}};
+  const Json plain =
+      Json::parse(WriteMarkups(Lollipop(), {}, {.axes = "RAS", .unit = "mm"}).text)["markups"][1];
+  for (const auto& [unit, factor] : units) {
+    const MarkupsDocument document = WriteMarkups(Lollipop(), {}, {.axes = "RAS", .unit = unit});
+    const Json curve = Json::parse(document.text)["markups"][1];
+    EXPECT_EQ(curve["coordinateUnits"], "mm");
+    const auto times = [factor](const Json& number) { return number.get<double>() * factor; };
+    for (size_t n = 0; n < plain["controlPoints"].size(); ++n) {
+      for (size_t axis = 0; axis < 3; ++axis) {
+        EXPECT_DOUBLE_EQ(curve["controlPoints"][n]["position"][axis].get<double>(),
+                         times(plain["controlPoints"][n]["position"][axis]));
+      }
+    }
+    for (size_t n = 0; n < 4; ++n) {
+      EXPECT_EQ(curve["measurements"][n]["units"], "mm");
+      EXPECT_DOUBLE_EQ(curve["measurements"][n]["value"].get<double>(),
+                       times(plain["measurements"][n]["value"]));
+    }
+    EXPECT_EQ(document.note,
+              unit == std::string("mm")
+                  ? ""
+                  : std::string("the input's unit is ") + unit + "; coordinates are written in mm");
+  }
+}
+
+TEST(MarkupsTest, SayThatAnUnknownUnitIsTakenForMillimeters) {
+  const MarkupsDocument document = WriteMarkups(Lollipop(), {}, {.axes = "LPS", .unit = ""});
+  EXPECT_THAT(document.note, HasSubstr("taken for millimeters"));
+  EXPECT_FALSE(Json::parse(document.text)["markups"][0].contains("coordinateUnits"));
+  EXPECT_THAT(WriteMarkups(Lollipop(), {}, {.axes = "", .unit = "pixel"}).note,
+              HasSubstr("written as LPS; the unit 'pixel' is not a known unit of length"));
+}
+
 TEST(MarkupsTest, EscapeTheUnit) {
   EXPECT_THAT(WriteMarkups(Lollipop(), {}, {.axes = "RAS", .unit = "a\"b\n"}).text,
               HasSubstr(R"("units":"a\"b\u000a"})"));
