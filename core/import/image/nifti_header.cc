@@ -141,6 +141,12 @@ absl::StatusOr<Placement> PlacementOfQform(const Fields& fields,
   return PlacementOfSteps(steps, {at(0), at(1), at(2)}, spacing);
 }
 
+// Codes of 0, as of files that were Analyze once, do not say where axes point: readers guess, each
+// in its way.
+bool StatesOrientation(const Fields& fields) {
+  return fields.Code(fields.layout().sform) > 0 || fields.Code(fields.layout().qform) > 0;
+}
+
 absl::StatusOr<Placement> PlacementOf(const Fields& fields) {
   std::array<double, 3> spacing = {1, 1, 1};
   for (size_t axis = 0; axis < 3; ++axis) {
@@ -224,7 +230,7 @@ absl::StatusOr<StoredImage> ParseNifti(const ImageFront& front, const ImageLimit
   }
   StoredImage image;
   image.info.format = std::string(fields->layout().format);
-  image.info.world = "RAS";
+  image.info.world = StatesOrientation(*fields) ? "RAS" : "";
   image.info.unit = UnitOf(*fields);
   image.byte_order = fields->order();
   BCCSKEL_ASSIGN_OR_RETURN(image.info.size, SizeOf(*fields, limits));

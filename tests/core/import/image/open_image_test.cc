@@ -209,7 +209,22 @@ TEST(OpenImage, ReadsNifti1InBothByteOrders) {
     EXPECT_EQ(image->values, CountedTo(12));
     EXPECT_EQ(image->info.format, "NIfTI-1");
     EXPECT_EQ(image->info.unit, "mm");
-    EXPECT_EQ(image->info.world, "RAS");
+    EXPECT_THAT(image->info.placement.spacing, ElementsAre(1, 2, 3));
+  }
+}
+
+// Readers differ on where such an image lies and even on whether its x points left.
+TEST(OpenImage, TakesTheWorldOfNiftiForRasOnlyWhereACodeStatesIt) {
+  for (const auto& [qform, sform] : {std::pair(0, 0), {1, 0}, {0, 4}, {2, 1}}) {
+    std::string header = testing::Nifti1Header();
+    header.replace(
+        252, 4,
+        Bytes<int16_t>(static_cast<int16_t>(qform)) + Bytes<int16_t>(static_cast<int16_t>(sform)));
+    const float srow[12] = {1, 0, 0, 0, 0, 2, 0, 0, 0, 0, 3, 0};
+    for (size_t n = 0; n < 12; ++n) header.replace(280 + 4 * n, 4, Bytes(srow[n]));
+    const auto image = ReadBytes(header + Counting<uint8_t>(12));
+    ASSERT_TRUE(image.ok()) << image.status();
+    EXPECT_EQ(image->info.world, qform + sform > 0 ? "RAS" : "") << qform << sform;
     EXPECT_THAT(image->info.placement.spacing, ElementsAre(1, 2, 3));
   }
 }
