@@ -11,6 +11,11 @@ The topology is kept, and every result carries the proof of it (`Skeleton.certif
 (1, True)
 """
 
+import pkgutil
+
+# The code that protoc generates for the interface is bccskel.v1, in a folder of its own.
+__path__ = pkgutil.extend_path(__path__, __name__)
+
 from ._compute import Client, read, skeletonize, skeletonize_labels, skeletonize_mesh
 from ._image import Image, Lattice, Mesh
 from ._native import __version__
