@@ -15,6 +15,10 @@ PACKAGE = pathlib.Path(bccskel.__file__).parent
 MASK = ball(4)
 
 
+def image_of(array):
+    return bccskel.Image(array, (3, 2, 1), (7, 8, 9), numpy.eye(3), "mm")
+
+
 class ArgumentsTest(harness.TestCase):
     def refuse(self, error, message, function, *arguments, **options):
         with self.assertRaises(error) as caught:
@@ -33,6 +37,42 @@ class ArgumentsTest(harness.TestCase):
                numpy.full((2, 2, 2), None))
         self.refuse(ValueError, "image must have 3 axes, got shape (4,)",
                     bccskel.skeletonize_labels, [1, 2, 3, 4])
+
+    def test_what_belongs_to_another_function_is_sent_there(self):
+        mesh, image = bccskel.Mesh(*box_mesh()), image_of(MASK)
+        refuse = lambda message, function, *given: self.refuse(TypeError, message, function, *given)
+        refuse("mask must be an array, got a Mesh: skeletonize_mesh() takes it",
+               bccskel.skeletonize, mesh)
+        refuse("image must be an array, got a Mesh: skeletonize_mesh() takes it",
+               bccskel.skeletonize_labels, mesh)
+        refuse("mask must be an array of three axes, an Image or a Lattice, got NoneType",
+               bccskel.skeletonize, None)
+        refuse("image must be an array of three axes or an Image, got NoneType",
+               bccskel.skeletonize_labels, None)
+        refuse("mask must be an array of three axes, an Image or a Lattice, got Skeleton",
+               bccskel.skeletonize, bccskel.skeletonize(MASK))
+        for path in ("a.stl", pathlib.Path("a.stl")):
+            refuse("vertices must be an array or a Mesh, got a path: read('a.stl') reads the file",
+                   bccskel.skeletonize_mesh, path)
+        refuse("vertices must be an array or a Mesh, got an Image: skeletonize() takes it",
+               bccskel.skeletonize_mesh, image)
+        refuse("vertices must be an array or a Mesh, got NoneType", bccskel.skeletonize_mesh, None)
+        self.refuse(ValueError, "vertices must have shape (n, 3), got (11, 11, 11): skeletonize() takes "
+                    "masks", bccskel.skeletonize_mesh, MASK, [[0, 1, 2]])
+
+    def test_an_image_compares_as_its_array_and_keeps_its_place(self):
+        image = image_of(MASK.astype("u1") * 3)
+        self.assertEqual((image.shape, image.dtype, image.ndim), (MASK.shape, "u1", 3))
+        for chosen in (image > 0, image == 3, image >= 3, (image > 1) & (image < 4), ~(image != 3),
+                       (image == 3) | (image == 7)):
+            self.assertIsInstance(chosen, bccskel.Image)
+            numpy.testing.assert_array_equal(chosen, MASK)
+            self.assertEqual((chosen.spacing, chosen.origin, chosen.unit), ((3, 2, 1), (7, 8, 9), "mm"))
+        self.assertEqual(bccskel.skeletonize(image == 3).sha256, bccskel.skeletonize(image).sha256)
+        with self.assertRaisesRegex(ValueError, r"an Image has no truth value.*\.array"):
+            bool(image == 1)
+        mesh = bccskel.Mesh(*box_mesh())
+        self.assertEqual((mesh == mesh, mesh == bccskel.Mesh(*box_mesh())), (True, False))
 
     def test_places(self):
         refuse = lambda message, **places: self.refuse(ValueError, message, bccskel.skeletonize,

@@ -11,8 +11,8 @@ from typing import Any, Callable, Optional, Union
 import numpy as np
 
 from . import _native
-from ._image import (Frame, Image, Lattice, Mesh, check_labels, labels_for_sending, triangles_of,
-                     voxels_of)
+from ._image import (Frame, Image, Lattice, Mesh, check_labels, check_vertices, labels_for_sending,
+                     triangles_of, voxels_of)
 from ._options import texts_of
 from ._skeleton import Skeleton
 
@@ -105,6 +105,7 @@ def _labels(server: Any, image: Any, spacing: Any, origin: Any, direction: Any, 
 def _mesh(server: Any, vertices: Any, faces: Any, threads: int, timeout: Optional[float],
           progress: Any, options: dict) -> Skeleton:
     title = "mesh"
+    check_vertices(vertices)
     if isinstance(vertices, Mesh):
         if faces is not None:
             raise TypeError("skeletonize_mesh() takes a Mesh or vertices and faces, not both")

@@ -12,11 +12,12 @@ import numpy as np
 from . import _native
 
 
-@dataclasses.dataclass
+@dataclasses.dataclass(eq=False)
 class Image:
     """An image as `read()` returns it. numpy functions take it as its array.
 
-    All but `array` are in the order of its axes, z, y, x. `origin` is the center of voxel (0, 0, 0).
+    Comparisons and &, |, ~ give an Image in the same place: skeletonize(image == 3). All but `array`
+    are in the order of its axes, z, y, x. `origin` is the center of voxel (0, 0, 0).
     """
 
     array: np.ndarray
@@ -37,8 +38,54 @@ class Image:
         array = self.array if dtype is None else self.array.astype(dtype)
         return array.copy() if copy and array is self.array else array
 
+    @property
+    def shape(self) -> tuple:
+        return self.array.shape
 
-@dataclasses.dataclass
+    @property
+    def dtype(self) -> np.dtype:
+        return self.array.dtype
+
+    @property
+    def ndim(self) -> int:
+        return self.array.ndim
+
+    def _voxelwise(self, function: Any, *others: Any) -> Any:
+        array = function(self.array, *map(np.asarray, others))
+        return dataclasses.replace(self, array=array) if array.shape == self.shape else array
+
+    def __eq__(self, other: Any) -> Any:
+        return self._voxelwise(np.equal, other)
+
+    def __ne__(self, other: Any) -> Any:
+        return self._voxelwise(np.not_equal, other)
+
+    def __lt__(self, other: Any) -> Any:
+        return self._voxelwise(np.less, other)
+
+    def __le__(self, other: Any) -> Any:
+        return self._voxelwise(np.less_equal, other)
+
+    def __gt__(self, other: Any) -> Any:
+        return self._voxelwise(np.greater, other)
+
+    def __ge__(self, other: Any) -> Any:
+        return self._voxelwise(np.greater_equal, other)
+
+    def __and__(self, other: Any) -> Any:
+        return self._voxelwise(np.bitwise_and, other)
+
+    def __or__(self, other: Any) -> Any:
+        return self._voxelwise(np.bitwise_or, other)
+
+    def __invert__(self) -> Any:
+        return self._voxelwise(np.invert)
+
+    def __bool__(self) -> bool:
+        raise ValueError("an Image has no truth value; its array is .array")
+
+
+@dataclasses.dataclass(eq=False)
 class Mesh:
     """A triangle mesh as `read()` returns it."""
 
@@ -130,9 +177,14 @@ def voxels_of(array: Any, name: str) -> np.ndarray:
     type is another."""
     if isinstance(array, (str, os.PathLike)):
         raise TypeError(f"{name} must be an array, got a path: read({str(array)!r}) reads the file")
+    if isinstance(array, Mesh):
+        raise TypeError(f"{name} must be an array, got a Mesh: skeletonize_mesh() takes it")
     if hasattr(array, "dataobj"):
         raise TypeError(f"{name} must be an array, got an image of nibabel: np.asarray({name}.dataobj)"
                         " is its array, of axes='xyz'; read(path) also reads its place in the world")
+    if array is None or (np.ndim(array) == 0 and np.asarray(array).dtype == object):
+        kinds = ", an Image or a Lattice" if name == "mask" else " or an Image"
+        raise TypeError(f"{name} must be an array of three axes{kinds}, got {type(array).__name__}")
     if isinstance(array, np.ma.MaskedArray):
         array = array.filled(0)
     array = np.asarray(array)
@@ -170,11 +222,25 @@ def labels_for_sending(labels: np.ndarray) -> np.ndarray:
     return np.ascontiguousarray(labels.astype(f"u{labels.itemsize}", copy=False))
 
 
+def check_vertices(mesh: Any) -> None:
+    """Raises TypeError for what is none, with the function that takes it."""
+    if isinstance(mesh, (str, os.PathLike)):
+        what = f"a path: read({os.fspath(mesh)!r}) reads the file"
+    elif isinstance(mesh, (Image, Lattice)):
+        what = f"{'an Image' if isinstance(mesh, Image) else 'a Lattice'}: skeletonize() takes it"
+    elif mesh is None:
+        what = "NoneType"
+    else:
+        return
+    raise TypeError(f"vertices must be an array or a Mesh, got {what}")
+
+
 def triangles_of(mesh: Any, faces: Any) -> tuple:
     """Checked vertices and triangles, for the extension module."""
     vertices = np.ascontiguousarray(mesh, dtype=np.float64)
     if vertices.ndim != 2 or vertices.shape[1] != 3:
-        raise ValueError(f"vertices must have shape (n, 3), got {vertices.shape}")
+        hint = ": skeletonize() takes masks" if vertices.ndim == 3 else ""
+        raise ValueError(f"vertices must have shape (n, 3), got {vertices.shape}{hint}")
     if not np.isfinite(vertices).all():
         raise ValueError("vertices must be finite")
     faces = np.asarray(faces)
