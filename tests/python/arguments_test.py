@@ -92,6 +92,11 @@ class ArgumentsTest(harness.TestCase):
         with self.assertWarnsRegex(UserWarning, "^labels without voxels: 9, 70$"):
             self.assertEqual(list(bccskel.skeletonize_labels(image, labels=[7, 9, 70])), [7])
 
+    def test_labels_that_are_all_too_small_are_told(self):
+        image = MASK.astype("u1") * 7
+        with self.assertWarnsRegex(UserWarning, "^no label has 10000 voxels or more$"):
+            self.assertEqual(bccskel.skeletonize_labels(image, min_voxels=10000), {})
+
     def test_images_of_nibabel_are_told_apart(self):
         class Nifti:
             dataobj = MASK

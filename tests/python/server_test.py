@@ -45,7 +45,8 @@ class ServerTest(harness.TestCase):
             self.assertEqual({n: (s.sha256, s.voxels) for n, s in there.items()},
                              {n: (s.sha256, s.voxels) for n, s in here.items()})
         self.assertEqual(sorted(self.client.skeletonize_labels(image, labels=[300])), [300])
-        self.assertEqual(self.client.skeletonize_labels(image, min_voxels=10 ** 6), {})
+        with self.assertWarnsRegex(UserWarning, "^no label has 1000000 voxels or more$"):
+            self.assertEqual(self.client.skeletonize_labels(image, min_voxels=10 ** 6), {})
         with self.assertRaisesRegex(ValueError, "^no voxel has the label 7$"):
             self.client.skeletonize_labels(image, labels=7)
         for value in (-1.0, 0.5, 1e20, numpy.inf):

@@ -97,6 +97,8 @@ def _labels(server: Any, image: Any, spacing: Any, origin: Any, direction: Any, 
         fewer = " or fewer than min_voxels" if options.get("min_voxels") else ""
         names = ", ".join(map(str, absent[:10])) + (", ..." if len(absent) > 10 else "")
         warnings.warn(f"labels without voxels{fewer}: {names}", stacklevel=3)
+    elif not outcomes and (array > 0).any():
+        warnings.warn(f"no label has {options.get('min_voxels', 1)} voxels or more", stacklevel=3)
     return {label: Skeleton(outcome, frame, title=f"label {label}", voxels=True, label=label,
                             image=image)
             for label, outcome in outcomes.items()}
