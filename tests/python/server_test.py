@@ -1,5 +1,6 @@
 """The client has the functions of the package and gives the same results."""
 
+import pickle
 import subprocess
 
 import bccskel
@@ -122,8 +123,11 @@ class TlsTest(harness.TestCase):
         self.assertIn("algorithm_version", describe(mine, token=f" {token}\r\n"))
         with self.assertRaises(PermissionError):
             describe(mine, token=token[::-1])
-        with self.assertRaises(PermissionError):
+        with self.assertRaisesRegex(PermissionError, "token= of Client"):
             describe(mine)
+        with self.assertRaisesRegex(PermissionError, "token= of Client"):
+            bccskel.Client(address, tls=(authority, mine.certificate, mine.key)).skeletonize(
+                crossing_bars(), timeout=20)
         for pair in (others, None):
             with self.assertRaises((ConnectionError, TimeoutError)):
                 describe(pair, token=token)
@@ -131,12 +135,14 @@ class TlsTest(harness.TestCase):
 
 class RefusalsTest(harness.TestCase):
     def test_no_server(self):
+        with self.assertRaisesRegex(TypeError, "a Client holds a connection and cannot be pickled: "):
+            pickle.dumps(bccskel.Client("unix:/nowhere"))
         with self.assertRaises(ConnectionError):
             bccskel.Client(f"unix:{self.folder}/none").skeletonize(numpy.ones((3, 3, 3)),
                                                                    timeout=20)
 
     def test_tokens(self):
-        with self.assertRaisesRegex(ValueError, "token"):
+        with self.assertRaisesRegex(ValueError, "token.* tls=.* plaintext_token=True"):
             bccskel.Client("example.org:1", token="secret")
         for token in ("secr\u00e9t", "secret\nsecret", "secret\0", "\ud800secret", "\n"):
             with self.assertRaisesRegex(ValueError, "token") as raised:

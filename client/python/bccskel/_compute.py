@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import contextlib
 import numbers
 import os
 import pathlib
 import warnings
-from typing import Any, Callable, Optional, Union
+from typing import Any, Callable, Iterator, Optional, Union
 
 import numpy as np
 
@@ -297,18 +298,43 @@ class Client:
         if not isinstance(plaintext_token, (bool, np.bool_)):
             raise TypeError(f"plaintext_token must be True or False, got {plaintext_token!r}")
         self.address = address
+        self._has_token, self._has_tls = bool(token), tls is not None
         # Checks types here, because the binding's error would show the token.
-        self._endpoint = _native.Endpoint(os.fsencode(address),
-                                          (token or "").encode("utf-8", "surrogatepass"), pems,
-                                          bool(plaintext_token))
-        self._server = _native.Server(self._endpoint)
+        try:
+            self._endpoint = _native.Endpoint(os.fsencode(address),
+                                              (token or "").encode("utf-8", "surrogatepass"), pems,
+                                              bool(plaintext_token))
+            self._server = _native.Server(self._endpoint)
+        except ValueError as error:
+            if "in the clear" not in str(error):
+                raise
+            raise ValueError(f"{error}: give tls=, or plaintext_token=True to send it so") from None
 
     def __repr__(self) -> str:
         return f"Client({self.address!r})"
 
+    def __reduce__(self) -> Any:
+        raise TypeError("a Client holds a connection and cannot be pickled: create one in each "
+                        "process")
+
+    @contextlib.contextmanager
+    def _hints(self) -> Iterator[None]:
+        """Names the arguments that an error asks for."""
+        try:
+            yield
+        except PermissionError as error:
+            if self._has_token:
+                raise
+            raise PermissionError(f"{error}: give it as token= of Client") from None
+        except ConnectionError as error:
+            if self._has_tls or self.address.startswith("unix:"):
+                raise
+            raise ConnectionError(f"{error}; a server that wants TLS needs tls= of Client") from None
+
     def describe(self, timeout: float = 10.0) -> dict:
         """{'server_version': ..., 'algorithm_version': ...}"""
-        return _native.describe_server(self._endpoint, timeout)
+        with self._hints():
+            return _native.describe_server(self._endpoint, timeout)
 
     def skeletonize(self, mask: Any, spacing: Any = None, origin: Any = None,
                     direction: Any = None, axes: str = "zyx", threads: int = 0,
@@ -316,8 +342,9 @@ class Client:
                     progress: Optional[Callable[[int, int], Any]] = None,
                     **options: Any) -> Skeleton:
         """As `bccskel.skeletonize()`."""
-        return _mask(self._server, mask, spacing, origin, direction, axes, threads, timeout,
-                     progress, options)
+        with self._hints():
+            return _mask(self._server, mask, spacing, origin, direction, axes, threads, timeout,
+                         progress, options)
 
     def skeletonize_labels(self, image: Any, spacing: Any = None, origin: Any = None,
                            direction: Any = None, axes: str = "zyx", threads: int = 0,
@@ -325,12 +352,14 @@ class Client:
                            progress: Optional[Callable[[int, int], Any]] = None,
                            **options: Any) -> dict:
         """As `bccskel.skeletonize_labels()`, without samplings, pages and lattice volumes."""
-        return _labels(self._server, image, spacing, origin, direction, axes, threads, timeout,
-                       progress, options)
+        with self._hints():
+            return _labels(self._server, image, spacing, origin, direction, axes, threads, timeout,
+                           progress, options)
 
     def skeletonize_mesh(self, vertices: Any, faces: Any = None, threads: int = 0,
                          timeout: Optional[float] = None,
                          progress: Optional[Callable[[int, int], Any]] = None,
                          **options: Any) -> Skeleton:
         """As `bccskel.skeletonize_mesh()`; the mesh is filled in process."""
-        return _mesh(self._server, vertices, faces, threads, timeout, progress, options)
+        with self._hints():
+            return _mesh(self._server, vertices, faces, threads, timeout, progress, options)
