@@ -5,6 +5,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"
+#include "core/labels/convert_label.h"
 #include "proto/wire/labels.h"
 #include "proto/wire/options.h"
 #include "proto/wire/placement.h"
@@ -41,7 +42,10 @@ v1::SkeletonizeLabelsRequest ConfigRequest(const EncodedLabels& volume,
       options.points == VoxelPoints::kTwo ? v1::VOXEL_POINTS_TWO : v1::VOXEL_POINTS_SIXTEEN);
   config.mutable_labels()->Add(options.labels.begin(), options.labels.end());
   config.set_min_voxels(options.min_voxels);
-  *config.mutable_options() = wire::ToMessage(options.skeletonize);
+  SkeletonizeOptions skeletonize = options.skeletonize;
+  skeletonize.preparing =
+      PreparingForMask(skeletonize.preparing, volume.grid, {.points = options.points});
+  *config.mutable_options() = wire::ToMessage(skeletonize);
   config.set_threads(options.threads);
   return request;
 }

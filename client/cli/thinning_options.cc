@@ -50,8 +50,13 @@ void AddPreparing(CLI::App& command, PreparingOptions& preparing) {
   command.add_flag_callback(
       "--fill-cavities", [&preparing] { preparing.cavities = CavityFilling::kOn; },
       "Fill the cavities of the object; each leaves a closed surface in the skeleton");
-  AddCount(command, "--min-component", preparing.min_component_points,
-           "Drop components of fewer than N points (default 0)");
+  AddCount<uint64_t>(
+      command, "--min-component",
+      [&preparing](uint64_t points) {
+        preparing.min_component_points = points;
+        preparing.component_size = ComponentSize::kPoints;
+      },
+      "Drop components of fewer than N points (default 0)");
   command
       .add_option("--min-component-volume", preparing.min_component_volume,
                   "Drop components smaller than X cubic world units (default 0)")

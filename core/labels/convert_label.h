@@ -16,7 +16,11 @@ absl::StatusOr<ConvertedMask> ConvertLabel(const MaskGrid& grid, const LabeledOb
                                            const MaskOptions& options,
                                            const exec::Context& context);
 
-// The options for an object that was made of voxels in this way: its source and its slabs.
+// The same sizes for an object that was made of voxels in this way: those in voxels become points.
+PreparingOptions PreparingForMask(PreparingOptions preparing, const MaskGrid& grid,
+                                  const MaskOptions& mask);
+
+// The options for such an object: its source, its slabs and PreparingForMask().
 SkeletonizeOptions ForMask(SkeletonizeOptions options, const MaskGrid& grid,
                            const MaskOptions& mask);
 

@@ -12,13 +12,21 @@ namespace {
 
 // Sizes are in voxels, since the flaws of a scan have its resolution. tests/quality/report.md shows
 // the effect of each preset on real masks.
+constexpr uint64_t kSpeckPoints = 200;  // of an object without voxels
+constexpr int kSpeckVoxels = 70;        // about as many; see ComponentSize
 constexpr std::array kPresets = {
     Preset{"neuron",
            "traced or segmented neurons: removes cavities, small tunnels and specks",
-           {.cavities = CavityFilling::kOn, .min_component_points = 200, .tunnel_cells = 4}},
+           {.cavities = CavityFilling::kOn,
+            .min_component_points = kSpeckPoints,
+            .component_size = ComponentSize::kVoxels,
+            .tunnel_cells = 4}},
     Preset{"vessels",
            "blood vessels: removes cavities, pinholes and specks; keeps rings of vessels",
-           {.cavities = CavityFilling::kOn, .min_component_points = 200, .tunnel_cells = 2}},
+           {.cavities = CavityFilling::kOn,
+            .min_component_points = kSpeckPoints,
+            .component_size = ComponentSize::kVoxels,
+            .tunnel_cells = 2}},
     Preset{"airway",
            "one tree of airways or ducts: removes cavities, small tunnels and all but the tree",
            {.cavities = CavityFilling::kOn,
@@ -26,7 +34,9 @@ constexpr std::array kPresets = {
             .tunnel_cells = 4}},
     Preset{"materials",
            "fibers, foams and pores: removes cavities and specks; keeps all tunnels",
-           {.cavities = CavityFilling::kOn, .min_component_points = 200}},
+           {.cavities = CavityFilling::kOn,
+            .min_component_points = kSpeckPoints,
+            .component_size = ComponentSize::kVoxels}},
     Preset{"cad", "machine parts: chamfers, fillets and corners get no branch", {}, 0.8},
 };
 
@@ -54,7 +64,7 @@ std::string OptionsOf(const Preset& preset) {
   std::vector<std::string> words;
   if (preparing.cavities == CavityFilling::kOn) words.push_back("--fill-cavities");
   if (preparing.min_component_points > 0) {
-    words.push_back(absl::StrCat("--min-component ", preparing.min_component_points));
+    words.push_back(absl::StrCat("--min-component for ", kSpeckVoxels, " voxels"));
   }
   if (preparing.components == KeptComponents::kLargest) words.push_back("--keep-largest");
   if (preparing.tunnel_cells > 0) {

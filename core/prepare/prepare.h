@@ -17,6 +17,14 @@ namespace bccskel {
 enum class CavityFilling : uint8_t { kOff, kOn };
 enum class KeptComponents : uint8_t { kAll, kLargest };
 
+// What a number of points stands for.
+enum class ComponentSize : uint8_t {
+  kPoints,  // for itself
+  // For as many voxels as make a block of that many points at two points per voxel:
+  // PreparingForMask() (core/labels) replaces it. Objects without voxels have such points.
+  kVoxels,
+};
+
 // The steps that prepare an object for thinning, in this order. Each may change its topology.
 struct PreparingOptions {
   // How often every point is set to the majority of itself and its 14 neighbors, up to
@@ -26,6 +34,7 @@ struct PreparingOptions {
   CavityFilling cavities = CavityFilling::kOff;
   // Drops components with fewer points.
   uint64_t min_component_points = 0;
+  ComponentSize component_size = ComponentSize::kPoints;
   // The same by volume, in cubic world units; 0 drops none.
   double min_component_volume = 0;
   // Of several largest components, the one with the first point in brick order stays.

@@ -80,6 +80,7 @@ TEST(ArgumentsTest, OptionsOverruleTheirPresetWhereverTheyStand) {
   ASSERT_TRUE(ApplyPreset("neuron", neuron).ok());
   EXPECT_EQ(skeletonize({"--preset", "neuron"}).preparing, neuron.preparing);
   neuron.preparing.min_component_points = 7;
+  neuron.preparing.component_size = ComponentSize::kPoints;
   EXPECT_EQ(skeletonize({"--preset", "neuron", "--min-component", "7"}).preparing,
             neuron.preparing);
   EXPECT_EQ(skeletonize({"--min-component", "7", "--preset", "neuron"}).preparing,
