@@ -1,5 +1,6 @@
 #include "core/import/image/tiff_stack.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -19,6 +20,18 @@ struct PageAxis {
   int64_t length;
 };
 
+// Many programs name the only axis of pages a channel or time unless told otherwise.
+absl::StatusOr<int64_t> ChosenPage(const PageAxis& axis, const std::vector<PageAxis>& axes,
+                                   const ImageOptions& options) {
+  const absl::StatusOr<int64_t> chosen = ChosenAlong(axis.letter, axis.length, options);
+  const bool stated = (axis.letter == 'C' ? options.channel : options.time).has_value();
+  const auto is_long = [](const PageAxis& other) { return other.length > 1; };
+  if (chosen.ok() || stated || std::ranges::count_if(axes, is_long) != 1) return chosen;
+  return absl::InvalidArgumentError(absl::StrFormat(
+      "%s; if they are slices, save them as such (tifffile: metadata={'axes': 'ZYX'}) or as .npy",
+      chosen.status().message()));
+}
+
 // What one slice axis and the axes to choose from come to. `axes` are fastest first.
 absl::StatusOr<TiffStack> Select(const std::vector<PageAxis>& axes, int64_t pages,
                                  const ImageOptions& options) {
@@ -35,8 +48,7 @@ absl::StatusOr<TiffStack> Select(const std::vector<PageAxis>& axes, int64_t page
       stack.slices = axis.length;
       stack.page_step = step;
     } else {
-      BCCSKEL_ASSIGN_OR_RETURN(const int64_t chosen,
-                               ChosenAlong(axis.letter, axis.length, options));
+      BCCSKEL_ASSIGN_OR_RETURN(const int64_t chosen, ChosenPage(axis, axes, options));
       stack.first_page += chosen * step;
     }
     step *= axis.length;
@@ -180,11 +192,26 @@ std::string_view ShapedLetters(std::string_view json) {
   return text.substr(0, text.find('"'));
 }
 
+// Whether all axes but the last two are those of the pages.
+bool PagesGoAlong(const std::vector<int64_t>& shape, int64_t pages) {
+  int64_t planes = 1;
+  for (size_t n = 0; n + 2 < shape.size(); ++n) {
+    if (shape[n] < 1 || shape[n] > pages / planes) return false;
+    planes *= shape[n];
+  }
+  return planes == pages;
+}
+
 absl::StatusOr<TiffStack> ShapedStack(std::string_view json, int64_t pages,
                                       const ImageOptions& options) {
-  BCCSKEL_ASSIGN_OR_RETURN(const std::vector<int64_t> shape, ShapedAxes(json));
+  BCCSKEL_ASSIGN_OR_RETURN(std::vector<int64_t> shape, ShapedAxes(json));
   std::string letters(ShapedLetters(json));
   if (letters.size() != shape.size()) letters.assign(shape.size(), '?');
+  // Axes of length 1 behind those of a page, as of a single value per voxel.
+  while (shape.size() > 2 && shape.back() == 1 && !PagesGoAlong(shape, pages)) {
+    shape.pop_back();
+    letters.pop_back();
+  }
   std::vector<PageAxis> axes;  // slowest first
   for (size_t n = 0; n + 2 < shape.size(); ++n) {
     if (shape[n] != 1) axes.push_back({letters[n], shape[n]});

@@ -16,6 +16,7 @@ namespace {
 using testing::CountedTo;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using testing::ReadBytes;
 using testing::TiffBytes;
 
@@ -117,6 +118,29 @@ TEST(Tiff, ChoosesAChannelAndAPointOfTime) {
   EXPECT_THAT(PagesOf("{\"shape\": [2, 3, 4, 3]}", {}), HasSubstr("2 channels"));
   EXPECT_THAT(PagesOf("{\"axes\": \"TYX\", \"shape\": [6, 4, 3]}", {}), HasSubstr("6 times"));
   EXPECT_THAT(PagesOf("{\"axes\": \"QZYX\", \"shape\": [2, 3, 4, 3]}", {}), HasSubstr("axis Q"));
+}
+
+// As tifffile writes pred[..., None]; it drops the last axis of a page itself.
+TEST(Tiff, DropsTrailingAxesOfLengthOne) {
+  EXPECT_EQ(PagesOf("{\"shape\": [6, 4, 3, 1]}", {}), "012345");
+  EXPECT_EQ(PagesOf("{\"shape\": [6, 4, 3, 1, 1]}", {}), "012345");
+  EXPECT_EQ(PagesOf("{\"shape\": [2, 3, 4, 3, 1]}", Channel(1)), "345");
+  EXPECT_EQ(PagesOf("{\"axes\": \"ZYXC\", \"shape\": [6, 4, 3, 1]}", {}), "012345");
+  EXPECT_EQ(PagesOf("{\"shape\": [4, 3, 1]}", {}, 1), "0");
+  EXPECT_EQ(PagesOf("{\"shape\": [6, 12, 1]}", {}), "012345") << "as wide as a voxel";
+  EXPECT_THAT(PagesOf("{\"shape\": [6, 4, 3, 2]}", {}), HasSubstr("more than the 6 pages"));
+}
+
+TEST(Tiff, SaysHowToSaveSlicesThatAreNamedChannels) {
+  const std::string hint = "if they are slices, save them as such";
+  for (const std::string& description :
+       {std::string("ImageJ=1.53\nimages=6\nchannels=6\n"),
+        Ome("DimensionOrder=\"XYCZT\" SizeZ=\"1\" SizeC=\"6\" SizeT=\"1\""),
+        std::string("{\"axes\": \"TYX\", \"shape\": [6, 4, 3]}")}) {
+    EXPECT_THAT(PagesOf(description, {}),
+                HasSubstr(hint + " (tifffile: metadata={'axes': 'ZYX'})"));
+  }
+  EXPECT_THAT(PagesOf("{\"shape\": [2, 3, 4, 3]}", {}), Not(HasSubstr(hint)));
 }
 
 TEST(Tiff, RefusesDescriptionsThatContradictThePages) {
