@@ -22,8 +22,8 @@ constexpr double kAsDeep = 0.75;  // depth of the middle of a cut, in its larges
 constexpr double kRise = 1.25, kRiseMargin = 2;
 // Along a limb, in the depth of the middle. Toward the center of a ball it grows, beyond it falls.
 constexpr double kLeastDepth = 0.8, kMostDepth = 1.2, kDepthMargin = 2;
-constexpr double kLeastLimb = 1.2,
-                 kLimbMargin = 4;  // least length of a limb, in half the width of its cut
+// Least length of a limb, in half the width of its cut plus units.
+constexpr double kLeastLimb = 1.2, kLimbMargin = 4;
 constexpr double kRound = 1.3, kRoundMargin = 2;  // half the width of a round cut, in its depth
 constexpr int kRays = 10;  // on either side of the normal, up to 45 degrees from it
 
@@ -51,25 +51,19 @@ class CutFinder {
 
   BorderCuts Find() && {
     BorderCuts cuts{window_, scale_, {}, {}};
-    Points left;
-    std::vector<LatticePoint> on_faces;
-    for (BrickIndex n = 0; n < object_.brick_count(); ++n) {
-      const BrickCoordinates brick = object_.keys()[n].coordinates();
-      object_.bricks()[n].ForEachSetBit([&](int bit) {
-        const LatticePoint p = PointOf(brick, bit);
-        if (InwardAt(p, window_) != Coordinates{0, 0, 0}) on_faces.push_back(p), left.insert(p);
-      });
-    }
-    for (LatticePoint start : on_faces) {
-      const std::vector<LatticePoint> part = TakePart(start, left);
-      Points of_part(part.begin(), part.end());
-      while (!of_part.empty()) {
-        const std::vector<LatticePoint> hill = TakeHill(of_part);
-        const LatticePoint middle = MiddleOf(hill);
-        if (!CutsLimb(hill, middle)) continue;
-        for (LatticePoint p : hill) cuts.points.emplace(p, cuts.middles.size());
-        cuts.middles.push_back(middle);
-      }
+    std::vector<LatticePoint> tops = PointsOnFaces();
+    std::ranges::sort(tops, [&](LatticePoint p, LatticePoint q) {
+      const double at_p = DepthAt(p), at_q = DepthAt(q);
+      return at_p != at_q ? at_p > at_q : p < q;
+    });
+    Points left(tops.begin(), tops.end());
+    for (LatticePoint top : tops) {
+      if (!left.contains(top)) continue;
+      const std::vector<LatticePoint> hill = TakeHill(top, left);
+      const LatticePoint middle = MiddleOf(hill);
+      if (!CutsLimb(hill, middle)) continue;
+      for (LatticePoint p : hill) cuts.points.emplace(p, cuts.middles.size());
+      cuts.middles.push_back(middle);
     }
     return cuts;
   }
@@ -80,26 +74,24 @@ class CutFinder {
     return distance_.ToLatticeUnits(distance_.At(bricks_.Find(address.brick), address.bit));
   }
 
-  // Takes the points that are connected with `start` from `left`.
-  static std::vector<LatticePoint> TakePart(LatticePoint start, Points& left) {
-    std::vector<LatticePoint> part;
-    if (left.erase(start) > 0) part.push_back(start);
-    for (size_t n = 0; n < part.size(); ++n) {
-      for (const LatticePoint& direction : kDirections14) {
-        const LatticePoint next = part[n] + direction;
-        if (left.erase(next) > 0) part.push_back(next);
-      }
+  std::vector<LatticePoint> PointsOnFaces() const {
+    const auto [low, high] = window_;
+    const LatticeBox inside = {low + LatticePoint{1, 1, 1}, high - LatticePoint{1, 1, 1}};
+    std::vector<LatticePoint> points;
+    for (BrickIndex n = 0; n < object_.brick_count(); ++n) {
+      const BrickCoordinates brick = object_.keys()[n].coordinates();
+      if (inside.Contains(BoxOf(brick))) continue;
+      object_.bricks()[n].ForEachSetBit([&](int bit) {
+        const LatticePoint p = PointOf(brick, bit);
+        if (InwardAt(p, window_) != Coordinates{0, 0, 0}) points.push_back(p);
+      });
     }
-    return part;
+    return points;
   }
 
-  // Takes the hill of the deepest point from `left`: the points to which ways lead down from it,
-  // but for what noise may be. Two limbs that touch at the border are two hills.
-  std::vector<LatticePoint> TakeHill(Points& left) {
-    const auto deeper = [&](LatticePoint a, LatticePoint b) {
-      const double at_a = DepthAt(a), at_b = DepthAt(b);
-      return at_a != at_b ? at_a > at_b : a < b;
-    };
+  // Takes the hill of a point from `left`: the points to which ways lead down from it, but for what
+  // noise may be. Two limbs that touch at the border are two hills.
+  std::vector<LatticePoint> TakeHill(LatticePoint top, Points& left) {
     struct Step {
       double least;  // depth on the way
       LatticePoint to;
@@ -108,11 +100,12 @@ class CutFinder {
       return a.least != b.least ? a.least < b.least : b.to < a.to;
     };
     std::priority_queue<Step, std::vector<Step>, decltype(later)> next(later);
-    const LatticePoint top = *std::ranges::min_element(left, deeper);
     std::vector<LatticePoint> hill;
     const auto take = [&](LatticePoint p, double least) {
+      if (!left.contains(p)) return;
       const double depth = DepthAt(p);
-      if (depth > kRise * least + kRiseMargin || left.erase(p) == 0) return;
+      if (depth > kRise * least + kRiseMargin) return;
+      left.erase(p);
       hill.push_back(p);
       next.push({std::min(least, depth), p});
     };

@@ -86,8 +86,7 @@ double Significance::Of(const ThinSet& set, const FreeBranch& branch) {
     if (value >= kLeastRatio) value *= uncovered;
     beside_trunk *= uncovered;
   }
-  if (beside_trunk > value && beside_trunk >= kLeastRatio && value < kSureRatio &&
-      LeavesTrunk(set, branch, scale_, sections_)) {
+  if (beside_trunk > std::max(value, kLeastRatio) && LeavesTrunk(set, branch, scale_, sections_)) {
     value = beside_trunk;
   }
   return value < kSureRatio ? std::max(value, OfBodyEnd(set, branch, value)) : value;
@@ -99,7 +98,7 @@ double Significance::BesideTrunk(const ThinSet& set, const BranchPath& path, con
   const double simple = run.elongation - noise_.Stretch(along) * noise_.At(root) - kNoiseMargin;
   const double out = (1 - rough) * BeyondNoise(run.elongation, root, along) + rough * simple;
   if (out < kLeastRatio * root) return 0;
-  const std::optional<double> wider = WidthBesideTrunk(set, path, run, scale_, sections_);
+  const auto wider = WidthBesideTrunk(set, path, run, scale_, sections_);
   return wider.has_value() ? out / (root + kWidthShare * *wider) : 0;
 }
 

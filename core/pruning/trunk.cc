@@ -11,6 +11,7 @@ namespace bccskel {
 namespace {
 
 constexpr double kInJunction = 0.9;  // places nearer belong to the junction, in its radii
+constexpr size_t kLeastPlaces = 3;   // fewer than these do not show a limb
 // A trunk is measured at these distances from the junction, in its radii.
 constexpr double kLeastTrunkRadii = 1.5, kTrunkRadii = 2.5, kTrunkStep = 0.5;
 constexpr double kAsThick = 0.75;  // least radius of the trunk there, in that of the junction
@@ -31,8 +32,10 @@ size_t FirstPlaceOutside(const ThinSet& set, const BranchPath& path, const Run& 
 
 std::optional<double> WidthBesideTrunk(const ThinSet& set, const BranchPath& path, const Run& run,
                                        const AxisScale& scale, CrossSections& sections) {
+  const size_t first = FirstPlaceOutside(set, path, run);
+  if (first + kLeastPlaces > kRunPlaces) return std::nullopt;
   std::vector<double> wider;
-  for (size_t place = FirstPlaceOutside(set, path, run); place < kRunPlaces; ++place) {
+  for (size_t place = first; place < kRunPlaces; ++place) {
     const size_t n = PlaceIn(run, place);
     const double radius = path.radii[n];
     const double side =
@@ -40,7 +43,6 @@ std::optional<double> WidthBesideTrunk(const ThinSet& set, const BranchPath& pat
                               radius, ReachFor(radius));
     wider.push_back(std::max(side - radius, 0.0));
   }
-  if (wider.empty()) return std::nullopt;
   const auto middle = wider.begin() + static_cast<std::ptrdiff_t>(wider.size() / 2);
   std::nth_element(wider.begin(), middle, wider.end());
   return *middle;

@@ -19,8 +19,8 @@ namespace bccskel {
 size_t FirstPlaceOutside(const ThinSet& set, const BranchPath& path, const Run& run);
 
 // By how much the object is wider than the radius across a run: the median of its places outside
-// the ball at the junction, each measured to the narrower side. No value without such places.
-// Lattice units.
+// the ball at the junction, each measured to the narrower side. No value if they are fewer than
+// three. Lattice units.
 std::optional<double> WidthBesideTrunk(const ThinSet& set, const BranchPath& path, const Run& run,
                                        const AxisScale& scale, CrossSections& sections);
 
