@@ -223,16 +223,24 @@ absl::StatusOr<InputKind> InputKindOf(const std::string& path) {
   if (name.ends_with(".exr") || name.ends_with(".bccb")) return InputKind::kVolume;
   if (IsImagePath(path)) return InputKind::kImage;
   std::error_code none;
-  if (!std::filesystem::exists(path, none)) {
+  const std::filesystem::file_status status = std::filesystem::status(path, none);
+  if (!std::filesystem::exists(status)) {
     return absl::NotFoundError("cannot open '" + path + "': No such file or directory");
   }
+  if (std::filesystem::is_other(status)) {
+    return absl::InvalidArgumentError(
+        path + ": is a pipe or a device, which cannot be read twice; save it to a file first");
+  }
+  if (BeginsLikeImage(path)) return InputKind::kImage;
+  if (BeginsLikeMesh(path)) return InputKind::kMesh;
   return absl::InvalidArgumentError(
       path +
       ": format not supported; there are meshes (.obj, .stl, .ply, .off, .glb, .gltf, .vtk, .vtp, "
       ".gii, each also with .gz, and surfaces of FreeSurfer), "
       "volumes (.exr, .bccb) and images (.nii, .nrrd, .tif, .png, .mha, .inr, .npy, .npz, .vol, "
       ".raw, "
-      "folders of slices or OME-Zarr, ...); save another image as PNG, TIFF or .npy");
+      "folders of slices or OME-Zarr, ...); save another image as NIfTI or NRRD, which keep its "
+      "place, or as TIFF, PNG or .npy");
 }
 
 absl::StatusOr<InputKind> InputKindOf(const std::string& path, const ImageArguments& image) {

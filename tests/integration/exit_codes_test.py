@@ -39,7 +39,7 @@ class ExitCodesTest(harness.TestCase):
             pathlib.Path(self.path(name)).touch()
             done = self.fail_with(3, "format not supported",
                                   *self.skeletonize(self.path(name), "--local"))
-            self.assertIn("; save another image as PNG, TIFF or .npy\n", done.stderr)
+            self.assertIn("; save another image as NIfTI or NRRD, which keep its place, or as TIFF, PNG or .npy\n", done.stderr)
         self.fail_with(3, "cannot open 'none': No such file", *self.skeletonize("none", "--local"))
         self.fail_with(3, "cannot open 'none': No such file", "info", "none")
         self.fail_with(3, "No such file", *self.skeletonize("a.nrrd", "--local"))

@@ -279,8 +279,11 @@ void AddFunctions(py::module_& module) {
   module.def("is_flag", [](const std::string& set, const std::string& name) {
     return cli::IsFlag(SetOf(set), name);
   });
-  module.def("is_mesh", &IsMeshPath);
-  module.def("is_image", &IsImagePath);
+  module.def("is_mesh", [](const std::string& path) {
+    return IsMeshPath(path) || (!IsImagePath(path) && BeginsLikeMesh(path));
+  });
+  module.def("is_image",
+             [](const std::string& path) { return IsImagePath(path) || BeginsLikeImage(path); });
   module.def("skeletonize_mask", &Mask);
   module.def("skeletonize_mesh", &Mesh);
   module.def("skeletonize_labels", &Labels);

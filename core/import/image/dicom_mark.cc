@@ -10,6 +10,8 @@
 namespace bccskel {
 
 bool IsDicomFile(const std::string& path) {
+  std::error_code none;  // a pipe would wait for its writer
+  if (!std::filesystem::is_regular_file(path, none)) return false;
   constexpr std::streamoff kPreamble = 128;
   constexpr std::string_view kMark = "DICM";
   std::array<char, kMark.size()> found = {};

@@ -29,8 +29,11 @@ absl::StatusOr<std::shared_ptr<const ImageFile>> ImageFile::Open(const std::stri
   if (fstat(descriptor, &status) != 0) return SystemError("read", path);
   if (!S_ISREG(status.st_mode)) {
     return absl::InvalidArgumentError(
-        absl::StrFormat("'%s' is a %s; images are read from regular files", path,
-                        S_ISDIR(status.st_mode) ? "folder" : "pipe or device"));
+        S_ISDIR(status.st_mode)
+            ? absl::StrFormat("'%s' is a folder; images are read from regular files", path)
+            : absl::StrFormat("%s: is a pipe or a device, which cannot be read twice; save it to a "
+                              "file first",
+                              path));
   }
   file->size_ = static_cast<uint64_t>(status.st_size);
   return file;

@@ -74,8 +74,8 @@ absl::StatusOr<StoredImage> ParseStored(const ImageFront& front, const ImageOpti
   }
   return absl::InvalidArgumentError(
       "format not supported: images are read from NIfTI, NRRD, TIFF, PNG, MetaImage, Inrimage, "
-      "npy, npz and vol; raw voxels need their size and type; save another image as PNG, TIFF or "
-      ".npy");
+      "npy, npz and vol; raw voxels need their size and type; save another image as NIfTI or "
+      "NRRD, which keep its place, or as TIFF, PNG or .npy");
 }
 
 // What libraries read anywhere in a file is expanded as a whole.
@@ -211,6 +211,8 @@ absl::StatusOr<std::unique_ptr<ImageSource>> OpenNamedFile(std::shared_ptr<const
 
 // Whatever its name.
 bool StartsLikeTiff(const std::string& path) {
+  std::error_code ignored;  // a pipe would wait for its writer
+  if (!std::filesystem::is_regular_file(path, ignored)) return false;
   std::string front(8, '\0');
   std::ifstream file(path, std::ios::binary);
   return file.read(front.data(), static_cast<std::streamsize>(front.size())) && IsTiff(front);
@@ -246,6 +248,20 @@ bool IsImagePath(std::string_view path) {
   const std::string name = ExpandedName(path);
   return std::ranges::any_of(kEndings,
                              [&name](std::string_view ending) { return name.ends_with(ending); });
+}
+
+bool BeginsLikeImage(const std::string& path) {
+  std::error_code ignored;  // a pipe would wait for its writer
+  if (!std::filesystem::is_regular_file(path, ignored)) return false;
+  if (IsDicomFile(path)) return true;
+  auto file = ImageFile::Open(path);
+  if (!file.ok()) return false;
+  const absl::StatusOr<ImageFront> front = ReadFront(*std::move(file), {.max_header_bytes = 4096});
+  if (!front.ok()) return false;
+  // Not the vague marks, such as a number that may stand anywhere.
+  const auto begins = [&front](bool (*is)(std::string_view)) { return is(front->bytes); };
+  return begins(IsNrrd) || begins(IsNpy) || begins(IsInrimage) || begins(IsNifti) ||
+         begins(IsTiff) || begins(IsPng) || front->bytes.starts_with("ObjectType");
 }
 
 absl::Status CheckImageChoice(const std::string& path, const ImageOptions& options) {

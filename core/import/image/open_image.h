@@ -16,6 +16,10 @@ namespace bccskel {
 // every folder; and for .jpg, .jpeg and .bmp, which OpenImage() refuses with what to do.
 bool IsImagePath(std::string_view path);
 
+// Whether a file of any name has the first bytes of NIfTI, NRRD, TIFF, PNG, MetaImage, Inrimage,
+// npy or DICOM; it may be compressed by gzip. False for what cannot be read.
+bool BeginsLikeImage(const std::string& path);
+
 // Opens NIfTI (1 and 2, also .hdr and .img), NRRD, TIFF, PNG, MetaImage, Inrimage, npy, npz, vol
 // or, with options.raw, any bytes; the content determines which. A folder is opened as OME-Zarr, a
 // Zarr array, a Neuroglancer precomputed volume or a series of PNG or TIFF slices. Reads the header

@@ -162,16 +162,30 @@ absl::StatusOr<TriangleMesh> ParseNamed(std::string_view bytes, std::string_view
   }
 }
 
-bool BeginsLikeFreeSurfer(const std::string& path) {
+// The first bytes of a file, as many as there are; none of what is no regular file.
+std::string FrontOf(const std::string& path, size_t most) {
   std::error_code ignored;  // a pipe would wait for its writer
-  if (!std::filesystem::is_regular_file(path, ignored)) return false;
-  std::array<char, 3> front = {};
+  if (!std::filesystem::is_regular_file(path, ignored)) return "";
+  std::string front(most, '\0');
   std::ifstream file(path, std::ios::binary);
-  return file.read(front.data(), front.size()) &&
-         IsFreeSurfer(std::string_view(front.data(), front.size()));
+  file.read(front.data(), static_cast<std::streamsize>(front.size()));
+  front.resize(static_cast<size_t>(file.gcount()));
+  return front;
 }
 
+bool BeginsLikeFreeSurfer(const std::string& path) { return IsFreeSurfer(FrontOf(path, 3)); }
+
 }  // namespace
+
+bool BeginsLikeMesh(const std::string& path) {
+  const std::string front = FrontOf(path, 4096);
+  std::error_code ignored;
+  if (!front.empty() && IsBinaryStlOf(front, std::filesystem::file_size(path, ignored)))
+    return true;
+  const std::optional<MeshFormat> format = SniffContent(front);
+  if (format == MeshFormat::kAsciiStl) return front.find("facet") != front.npos;
+  return format.has_value() && *format != MeshFormat::kObj && *format != MeshFormat::kGltf;
+}
 
 bool IsGltfPath(const std::string& path) {
   const std::string ending = EndingOf(path);

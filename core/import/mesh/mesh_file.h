@@ -14,6 +14,10 @@ namespace bccskel {
 // .gii, each also with .gz; and for a file that begins like a surface of FreeSurfer, whose names
 // have no ending of their own.
 bool IsMeshPath(const std::string& path);
+// Whether a file of any name, not compressed, begins like one of these formats. OBJ and glTF, which
+// begin like many other texts, are known by their names.
+bool BeginsLikeMesh(const std::string& path);
+
 // True when the name ends like a glTF file, whose y axis points up.
 bool IsGltfPath(const std::string& path);
 

@@ -40,6 +40,8 @@ absl::StatusOr<TriangleMesh> ParseGltf(std::string_view bytes, std::optional<std
 
 // Is the length exactly that of a binary STL with the count it declares?
 bool HasBinaryStlLength(std::string_view bytes);
+// The same for a file of which these are the first bytes.
+bool IsBinaryStlOf(std::string_view front, uint64_t file_bytes);
 // Is this the keyword of an OFF file, such as OFF, COFF or STCNOFF?
 bool IsOffKeyword(std::string_view token);
 // Does the file begin like a legacy file of VTK?

@@ -90,10 +90,12 @@ absl::StatusOr<TriangleMesh> ParseAsciiStl(std::string_view bytes, const MeshLim
   return std::move(mesh).Finish();
 }
 
-bool HasBinaryStlLength(std::string_view bytes) {
-  return bytes.size() >= kHeaderBytes &&
-         bytes.size() == kHeaderBytes + kTriangleBytes * DeclaredTriangles(bytes);
+bool IsBinaryStlOf(std::string_view front, uint64_t file_bytes) {
+  return front.size() >= kHeaderBytes &&
+         file_bytes == kHeaderBytes + kTriangleBytes * DeclaredTriangles(front);
 }
+
+bool HasBinaryStlLength(std::string_view bytes) { return IsBinaryStlOf(bytes, bytes.size()); }
 
 absl::StatusOr<TriangleMesh> ParseBinaryStl(std::string_view bytes, const MeshLimits& limits) {
   if (bytes.size() < kHeaderBytes) {

@@ -133,7 +133,8 @@ TEST(Png, RefusesSizesThatTheFileCannotHoldBeforeItTakesMemory) {
 TEST(Png, RefusesJpegAndBmpAndNamesFormatsToUse) {
   EXPECT_THAT(ErrorOfBytes("\xff\xd8\xff\xe0 JFIF"),
               HasSubstr("JPEG is not supported: it changes"));
-  EXPECT_THAT(ErrorOfBytes("BM      "), HasSubstr("save another image as PNG, TIFF or .npy"));
+  EXPECT_THAT(ErrorOfBytes("BM      "),
+              HasSubstr("save another image as NIfTI or NRRD, which keep its place"));
 }
 
 }  // namespace
