@@ -174,6 +174,24 @@ absl::StatusOr<std::unique_ptr<ImageSource>> OpenArray(const std::string& folder
                           options.limits);
 }
 
+// An array may be a level of the group above, as OME.zarr/0 is: then that says where it lies.
+absl::StatusOr<ZarrLevel> LevelOfGroupAbove(const std::string& folder, ImageOptions options) {
+  std::error_code ignored;
+  auto path = std::filesystem::absolute(folder, ignored).lexically_normal();
+  if (!path.has_filename()) path = path.parent_path();
+  const auto attributes = ReadJson(path.parent_path().string() + "/.zattrs", options.limits);
+  if (!attributes.ok() || !attributes->has_value()) return ZarrLevel{};
+  const Json& images = MemberOf(**attributes, "multiscales");
+  if (!images.is_array() || images.empty()) return ZarrLevel{};
+  const Json& datasets = MemberOf(images[0], "datasets");
+  for (size_t n = 0; datasets.is_array() && n < datasets.size(); ++n) {
+    if (MemberOf(datasets[n], "path") != path.filename().string()) continue;
+    options.level = static_cast<int64_t>(n);
+    return ParseMultiscales(**attributes, options);
+  }
+  return ZarrLevel{};
+}
+
 }  // namespace
 
 bool IsZarrFolder(const std::string& folder) {
@@ -186,7 +204,8 @@ absl::StatusOr<std::unique_ptr<ImageSource>> OpenZarr(const std::string& folder,
   BCCSKEL_ASSIGN_OR_RETURN(const auto alone, ReadJson(folder + "/.zarray", options.limits));
   if (alone.has_value()) {
     BCCSKEL_RETURN_IF_ERROR(ChosenLevel(1, options).status());
-    return OpenArray(folder, *alone, {}, options);
+    BCCSKEL_ASSIGN_OR_RETURN(ZarrLevel level, LevelOfGroupAbove(folder, options));
+    return OpenArray(folder, *alone, std::move(level), options);
   }
   BCCSKEL_ASSIGN_OR_RETURN(const auto attributes, ReadJson(folder + "/.zattrs", options.limits));
   if (!attributes.has_value() && Holds(folder, "zarr.json")) {

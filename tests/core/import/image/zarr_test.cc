@@ -273,6 +273,31 @@ TEST(Zarr, RefusesGroupsThatAreNotRead) {
   EXPECT_THAT(with_steps(R"([{"type":"affine"}])"), HasSubstr("neither a scale nor"));
 }
 
+// "OME.zarr/0" is what programs name that show the levels.
+TEST(Zarr, OfALevelLiesWhereTheGroupAbovePlacesIt) {
+  const ImageFolder folder("above.ome.zarr");
+  folder.Write(".zattrs", Multiscales(kAxes + R"(,"datasets":[{"path":"0"},{"path":"1",)"
+                                              R"("coordinateTransformations":[{"type":"scale",)"
+                                              R"("scale":[4,2,1]}]},{"path":"2","coordinate)"
+                                              R"(Transformations":[{"type":"affine"}]}])"));
+  for (const char* level : {"1", "2", "other"}) {
+    folder.Write(std::string(level) + "/.zarray", Array());
+    folder.Write(std::string(level) + "/0.0.0", Counting<uint8_t>(24));
+  }
+  for (const char* name : {"/1", "/1/", "/./1"}) {
+    const auto image = testing::ReadAll(OpenImage(folder.path() + name));
+    ASSERT_TRUE(image.ok()) << image.status();
+    EXPECT_THAT(image->info.placement.spacing, ElementsAre(1, 2, 4));
+    EXPECT_EQ(image->info.unit, "um");
+    EXPECT_EQ(image->values, CountedTo(24));
+  }
+  EXPECT_THAT(std::string(OpenImage(folder.path() + "/2").status().message()),
+              HasSubstr("neither a scale nor"));
+  const auto other = testing::ReadAll(OpenImage(folder.path() + "/other"));
+  ASSERT_TRUE(other.ok()) << other.status();
+  EXPECT_EQ(other->info.unit, "");
+}
+
 TEST(Zarr, RefusesVersion3InClearWords) {
   const ImageFolder folder("three.zarr");
   folder.Write("zarr.json", R"({"zarr_format":3,"node_type":"group"})");
