@@ -41,6 +41,19 @@ class TrackedChars {
   const char** now_;
 };
 
+// The parser quotes what it read, which may be no text.
+std::string InAscii(std::string_view text) {
+  std::string ascii;
+  for (const char c : text) {
+    if (static_cast<unsigned char>(c) < 0x80) {
+      ascii += c;
+    } else {
+      absl::StrAppend(&ascii, "\\x", absl::Hex(static_cast<unsigned char>(c)));
+    }
+  }
+  return ascii;
+}
+
 // The callbacks of nlohmann's parser, in its spelling; false stops it.
 class Handler {
  public:
@@ -95,7 +108,7 @@ class Handler {
   bool parse_error(size_t at, const std::string& /*token*/, const std::exception& error) {
     std::string_view why = error.what();  // "[json.exception.parse_error.101] parse error at ..."
     why.remove_prefix(std::min(why.find("] ") + 2, why.size()));
-    return Fail(absl::StrCat("byte ", at, ": ", std::string(why)));
+    return Fail(absl::StrCat("byte ", at, ": ", InAscii(why)));
   }
 
  private:

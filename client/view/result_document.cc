@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "client/view/document_check.h"
 #include "client/view/json_events.h"
 #include "core/exec/status_macros.h"
 #include "core/import/mesh/file_bytes.h"
@@ -363,28 +364,13 @@ class Reader {
   absl::Status status_;
 };
 
-absl::Status CheckIndices(const ResultDocument& document) {
-  const auto check = [&](const char* what, uint64_t node) {
-    if (node < document.nodes.size()) return absl::OkStatus();
-    return absl::InvalidArgumentError(
-        absl::StrCat(what, " names node ", node, "; there are ", document.nodes.size(), " nodes"));
-  };
-  for (const ResultDocument::Edge& edge : document.edges) {
-    BCCSKEL_RETURN_IF_ERROR(check("an edge", std::max(edge.source, edge.target)));
-  }
-  if (document.roots.has_value()) {
-    for (const uint32_t root : *document.roots) BCCSKEL_RETURN_IF_ERROR(check("the order", root));
-  }
-  return absl::OkStatus();
-}
-
 }  // namespace
 
 absl::StatusOr<ResultDocument> ParseResultDocument(std::string text) {
   ResultDocument document;
   document.text = std::make_shared<const std::string>(std::move(text));
   BCCSKEL_RETURN_IF_ERROR(Reader(document).Run());
-  BCCSKEL_RETURN_IF_ERROR(CheckIndices(document));
+  BCCSKEL_RETURN_IF_ERROR(CheckDocument(document));
   return document;
 }
 
