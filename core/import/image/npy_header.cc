@@ -35,6 +35,14 @@ struct Elements {
 };
 
 absl::Status BadElements(std::string_view descr) {
+  constexpr std::string_view kRecords = "[('";
+  if (descr.starts_with(kRecords)) {
+    const std::string_view name = descr.substr(kRecords.size());
+    return absl::InvalidArgumentError(
+        absl::StrFormat("elements are records; save one of their fields: numpy.save(FILE, "
+                        "array['%s'])",
+                        std::string(name.substr(0, std::min(name.find('\''), size_t{80})))));
+  }
   return absl::InvalidArgumentError(absl::StrFormat(
       "elements of type %s are not supported, only plain integers, floats and bools are",
       std::string(descr.substr(0, descr.find(',')).substr(0, 80))));

@@ -130,7 +130,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"complex", Npy("{'descr': '<c8', 'fortran_order': False, 'shape': (2, 2, 3), }"),
                 kInvalid, "'<c8'"},
         Refused{"record", Npy("{'descr': [('a', '<u1')], 'fortran_order': False, 'shape': (2,), }"),
-                kInvalid, "not supported"},
+                kInvalid, "records; save one of their fields: numpy.save(FILE, array['a'])"},
         Refused{"channels",
                 Npy("{'descr': '|u1', 'fortran_order': False, 'shape': (2, 2, 2, 3), }"), kInvalid,
                 "4 axes"},
