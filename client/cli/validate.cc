@@ -56,6 +56,14 @@ absl::Status CheckObject(const std::string& input, const VoxelizeOptions& grid,
                                     is);
 }
 
+absl::Status CheckBorder(const SkeletonizeArguments& arguments) {
+  if (arguments.skeletonize.border == Border::kEnds) return absl::OkStatus();
+  const absl::StatusOr<InputKind> kind = InputKindOf(arguments.input, arguments.image);
+  if (!kind.ok() || *kind != InputKind::kMesh) return absl::OkStatus();
+  return absl::InvalidArgumentError("--border is for images and volumes; " + arguments.input +
+                                    " is a mesh");
+}
+
 absl::Status CheckImages(const SkeletonizeArguments& arguments) {
   if (!arguments.images.wanted()) return absl::OkStatus();
   for (const std::string& path : {arguments.images.branches, arguments.images.curves}) {
@@ -95,6 +103,7 @@ absl::Status Validate(const SkeletonizeArguments& arguments) {
   }
   BCCSKEL_RETURN_IF_ERROR(CheckObject(arguments.input, arguments.grid, arguments.image));
   BCCSKEL_RETURN_IF_ERROR(CheckImages(arguments));
+  BCCSKEL_RETURN_IF_ERROR(CheckBorder(arguments));
   return ValidateOptions(arguments.skeletonize);
 }
 
@@ -198,6 +207,21 @@ std::vector<std::string> OutputsOf(const Chosen& arguments) {
   return paths;
 }
 
+template <typename Chosen>
+absl::Status CheckSwcStep(const Chosen& arguments) {
+  if constexpr (requires { arguments.swc; }) {
+    const auto takes_it = [](const std::string& path) {
+      const absl::StatusOr<exporting::SkeletonFormat> format = exporting::SkeletonFormatOf(path);
+      return !format.ok() || *format == exporting::SkeletonFormat::kSwc ||
+             *format == exporting::SkeletonFormat::kPrecomputed;
+    };
+    if (arguments.swc.step.has_value() && std::ranges::none_of(OutputsOf(arguments), takes_it)) {
+      return absl::InvalidArgumentError("--swc-step is for .swc and .precomputed outputs");
+    }
+  }
+  return absl::OkStatus();
+}
+
 // The resolved path, also for a file that does not exist yet.
 std::filesystem::path PlaceOf(const std::string& path) {
   std::error_code error;
@@ -237,6 +261,8 @@ absl::Status Validate(const Arguments& arguments) {
       std::visit([](const auto& chosen) { return CheckInputs(chosen); }, arguments));
   BCCSKEL_RETURN_IF_ERROR(
       std::visit([](const auto& chosen) { return Validate(chosen); }, arguments));
+  BCCSKEL_RETURN_IF_ERROR(
+      std::visit([](const auto& chosen) { return CheckSwcStep(chosen); }, arguments));
   return std::visit([](const auto& chosen) { return CheckOutputNames(chosen); }, arguments);
 }
 

@@ -119,6 +119,8 @@ class ArgumentsTest(harness.TestCase):
                "persistence or none", pruning="all")
         refuse(ValueError, "pruning_threshold is for a rule of pruning, not for pruning none",
                pruning="none", pruning_threshold=1)
+        self.refuse(ValueError, "border is for images and volumes, not for a mesh",
+                    bccskel.skeletonize_mesh, *box_mesh(), border="continues", points=2000)
         refuse(TypeError, "fill_cavities must be True or False, got 3", fill_cavities=3)
         refuse(TypeError, "method must be a number or a text, got True", method=True)
         refuse(ValueError, "threads must be a whole number from 0 to 1024, got -1", threads=-1)

@@ -120,6 +120,9 @@ absl::StatusOr<Outcome> SkeletonizeMask(ImageSource& mask,
 absl::StatusOr<Outcome> SkeletonizeMesh(const TriangleMesh& mesh,
                                         const cli::SkeletonizeArguments& arguments,
                                         const Run& run) {
+  if (arguments.skeletonize.border != Border::kEnds) {
+    return absl::InvalidArgumentError("border is for images and volumes, not for a mesh");
+  }
   Here here(run);
   VoxelizeOptions grid = arguments.grid;
   if (!grid.points.has_value() && !grid.spacing.has_value()) grid.points = cli::kDefaultPoints;
