@@ -76,7 +76,8 @@ void ReadLabels(const std::string& given, std::vector<uint64_t>& labels) {
   const std::optional<uint64_t> first = ParseCount(given.substr(0, dash));
   const auto last = dash == given.npos ? first : ParseCount(given.substr(dash + 1));
   if (!first.has_value() || !last.has_value()) {
-    refuse("must be a whole number from 1 on or a range, such as 3,7 or 1-85");
+    refuse(std::string("must be a whole number from 0 on or a range, such as 3,7 or 1-85") +
+           (given.starts_with('-') ? "; skeletonize takes negative values with --range" : ""));
   }
   const uint64_t low = *first, high = *last;
   if (low > high) refuse("the first label is above the last");
