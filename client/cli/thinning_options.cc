@@ -7,6 +7,8 @@
 #include <span>
 #include <string>
 
+#include "absl/strings/numbers.h"
+#include "absl/strings/str_cat.h"
 #include "client/cli/option_values.h"
 #include "core/exec/status_macros.h"
 #include "core/pipeline/canonical_options.h"
@@ -46,6 +48,7 @@ void AddPreparing(CLI::App& command, PreparingOptions& preparing) {
       .add_option("--denoise", preparing.denoise_passes,
                   "Set each point to the majority of its neighborhood, N times, up to 16; removes "
                   "limbs one or two lattice units thick (default 0)")
+      ->check(Within(0, kMaxDenoisePasses))
       ->option_text("N");
   command.add_flag_callback(
       "--fill-cavities", [&preparing] { preparing.cavities = CavityFilling::kOn; },
@@ -60,6 +63,7 @@ void AddPreparing(CLI::App& command, PreparingOptions& preparing) {
   command
       .add_option("--min-component-volume", preparing.min_component_volume,
                   "Drop components smaller than X cubic world units (default 0)")
+      ->check(Within(0, std::numeric_limits<double>::max()))
       ->option_text("X");
   command.add_flag_callback(
       "--keep-largest", [&preparing] { preparing.components = KeptComponents::kLargest; },
@@ -68,6 +72,7 @@ void AddPreparing(CLI::App& command, PreparingOptions& preparing) {
       .add_option("--cut-loops", preparing.tunnel_width,
                   "Fill tunnels narrower than X world units; each makes a loop in the skeleton "
                   "(default 0: none)")
+      ->check(Within(0, kMaxTunnelWidthToFill))
       ->option_text("X");
 }
 
@@ -75,6 +80,18 @@ void AddDistance(CLI::App& command, DistanceKind& distance) {
   AddChoice<DistanceKind>(command, "--distance", distance,
                           "Distance that defines the shells (default euclidean)",
                           Choices(kDistanceWords));
+}
+
+// 0 would mean the default.
+CLI::Validator Threshold() {
+  const auto check = [](const std::string& text) -> std::string {
+    double value = 0;
+    if (!absl::SimpleAtod(text, &value)) return "";  // told as no number
+    if (value > 0 && value <= kMaxPruningThreshold) return "";
+    return absl::StrCat("must be above 0, up to 1e9, not ", text,
+                        value == 0 ? "; --pruning none keeps every branch" : "");
+  };
+  return {check, ""};
 }
 
 void AddPruning(CLI::App& command, PruningOptions& pruning) {
@@ -91,7 +108,7 @@ void AddPruning(CLI::App& command, PruningOptions& pruning) {
           "Significance: how far a branch sticks out, in half-widths of the object beside it "
           "(default 0.45); length: world units; relative-length: radii of the junction "
           "(default 1); persistence: thinning passes (default 6)")
-      ->check(Positive())  // 0 would mean the default
+      ->check(Threshold())
       ->option_text("X");
   AddChoice<TipPlacement>(
       command, "--tips", pruning.tips,
@@ -105,6 +122,7 @@ void AddJunctions(CLI::App& command, double& reach) {
           "--merge-junctions", reach,
           "Merge junctions within X radii of the deepest of them, or of thinner limbs, into "
           "one node, up to 4; 0 merges none (default 1.25)")
+      ->check(Within(0, kMaxJunctionReach))
       ->option_text("X");
 }
 
@@ -137,10 +155,12 @@ void AddThinning(CLI::App& command, SkeletonizeOptions& options) {
   command
       .add_option("--shell-width", thinning.shell_width,
                   "Thickness of a shell in lattice units, 0.75 to 64 (default 1)")
+      ->check(Within(kMinShellWidth, kMaxShellWidth))
       ->option_text("X");
   command
       .add_option("--last-shell", thinning.last_shell,
                   "Stop after this shell; 0 thins to the end (default)")
+      ->check(Within(0, std::numeric_limits<double>::max()))
       ->option_text("N");
   command.add_flag_callback(
       "--no-cleanup", [&thinning] { thinning.cleanup = ThinnessCleanup::kOff; },
@@ -250,6 +270,10 @@ absl::Status CheckJunctions(const SkeletonizeOptions& options) {
 }  // namespace
 
 absl::Status ValidateOptions(const SkeletonizeOptions& options) {
+  if (options.pruning.rule == PruningRule::kLength && options.pruning.threshold == 0) {
+    return absl::InvalidArgumentError(
+        "--pruning length needs --pruning-threshold, the length in world units");
+  }
   BCCSKEL_RETURN_IF_ERROR(CheckSkeletonizeOptions(options));
   BCCSKEL_RETURN_IF_ERROR(CheckJunctions(options));
   return CheckPruning(options);

@@ -112,10 +112,9 @@ absl::Status CheckPreparingOptions(const PreparingOptions& options) {
                                                       options.denoise_passes, kMaxDenoisePasses));
   }
   for (const double width : {options.tunnel_width, options.tunnel_cells}) {
-    constexpr double kMost = 1e9;  // in any unit far more than kMaxTunnelWidth
-    if (width >= 0 && width <= kMost) continue;
-    return absl::InvalidArgumentError(
-        absl::StrFormat("width of tunnels to fill %g: must be 0 to %g", width, kMost));
+    if (width >= 0 && width <= kMaxTunnelWidthToFill) continue;
+    return absl::InvalidArgumentError(absl::StrFormat(
+        "width of tunnels to fill %g: must be 0 to %g", width, kMaxTunnelWidthToFill));
   }
   if (!(options.min_component_volume >= 0 && std::isfinite(options.min_component_volume))) {
     return absl::InvalidArgumentError(

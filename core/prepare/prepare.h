@@ -59,6 +59,7 @@ struct PreparingOptions {
   friend bool operator==(const PreparingOptions&, const PreparingOptions&) = default;
 };
 inline constexpr int32_t kMaxDenoisePasses = 16;
+inline constexpr double kMaxTunnelWidthToFill = 1e9;  // in any unit more than can be filled
 
 // The width of tunnels in lattice units for PreparingOptions::tunnel_cells, where a voxel is one
 // cell. Noise leaves gaps as high as the longest edge of a cell, so the width is at least 1.25

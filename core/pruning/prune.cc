@@ -132,7 +132,7 @@ Significance SignificanceIn(const Volume& space, const ExactRadius& radius, cons
 }  // namespace
 
 absl::Status CheckPruningOptions(const PruningOptions& options) {
-  if (!(options.threshold >= 0 && options.threshold <= 1e9)) {
+  if (!(options.threshold >= 0 && options.threshold <= kMaxPruningThreshold)) {
     return absl::InvalidArgumentError(absl::StrFormat(
         "pruning threshold %g: must be 0 (the rule's default) to 1e9", options.threshold));
   }

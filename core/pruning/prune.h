@@ -34,6 +34,7 @@ enum class PruningRule : uint8_t {
 
 // Default threshold of kSignificance, in half-widths.
 inline constexpr double kDefaultSignificance = 0.45;
+inline constexpr double kMaxPruningThreshold = 1e9;  // of any rule
 
 // Whether tips are moved to the end of the ridge of the distances.
 enum class TipPlacement : uint8_t { kRidge, kAsThinned };

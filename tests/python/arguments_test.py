@@ -135,7 +135,7 @@ class ArgumentsTest(harness.TestCase):
                root=(float("nan"), 0, 0))
         refuse(ValueError, "root must be 3 finite numbers, one per axis, got ('a', 0, 0)",
                root=("a", 0, 0))
-        refuse(ValueError, "pruning_threshold: must be finite and positive, not wide",
+        refuse(ValueError, "pruning_threshold wide: must be a number",
                pruning_threshold="wide")
         refuse(ValueError, "denoise 2.5: must be a whole number", denoise=2.5)
         self.refuse(ValueError, "root node:N names a node of one skeleton; labels have many",

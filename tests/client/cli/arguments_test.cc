@@ -117,7 +117,7 @@ TEST(ArgumentsTest, SkeletonizeTakesPruning) {
   const PruningOptions expected = {PruningRule::kRelativeLength, 1.5, TipPlacement::kAsThinned};
   EXPECT_EQ(parsed.as<SkeletonizeArguments>().skeletonize.pruning, expected);
   const Parsed no_length = Parse("skeletonize a.off -o a.swc --pruning length");
-  EXPECT_THAT(no_length.err, HasSubstr("needs a threshold"));
+  EXPECT_THAT(no_length.err, HasSubstr("needs --pruning-threshold"));
 }
 
 TEST(ArgumentsTest, SkeletonizeTakesTheReachOfJunctions) {
@@ -125,7 +125,7 @@ TEST(ArgumentsTest, SkeletonizeTakesTheReachOfJunctions) {
     return Parse({"skeletonize", "a", "-o", "a.vtp", "--kind", kind, "--merge-junctions", reach});
   };
   EXPECT_EQ(parsed("curve", "0").as<SkeletonizeArguments>().skeletonize.junction_reach, 0);
-  EXPECT_THAT(parsed("curve", "5").err, HasSubstr("reach of junctions 5: must be 0"));
+  EXPECT_THAT(parsed("curve", "5").err, HasSubstr("--merge-junctions: must be 0 to 4, not 5"));
   EXPECT_THAT(parsed("surface", "1").err, HasSubstr("--merge-junctions is for graphs of curves"));
 }
 
