@@ -135,6 +135,43 @@ void AddBorder(CLI::App& command, Border& border) {
       Choices(std::span(kBorderWords).first<2>()));
 }
 
+// Refuses options of what a skeleton does not have, also with their defaults: whoever states one
+// takes it for having an effect. CLI11 has counted all options before it applies the first, and
+// those of pruning were applied before those of thinning.
+void RefuseOfCurves(const CLI::App& command, const PruningOptions& pruning,
+                    const std::string& why) {
+  const bool rule = command.count("--pruning") > 0 && pruning.rule != PruningRule::kNone;
+  if (!rule && command.count("--pruning-threshold") + command.count("--tips") == 0) return;
+  throw CLI::ValidationError("--pruning, --pruning-threshold and --tips are for curves, and " +
+                             why);
+}
+
+void RefuseOfGraphs(const CLI::App& command, double junction_reach) {
+  if (command.count("--merge-junctions") == 0 || junction_reach == 0) return;
+  throw CLI::ValidationError(
+      "--merge-junctions is for graphs of curves, not for --kind surface and --last-shell");
+}
+
+void TakeKind(const CLI::App& command, SkeletonKind kind, SkeletonizeOptions& options) {
+  options.thinning.kind = kind;
+  if (kind != SkeletonKind::kCurve) DropPresetsThreshold(command, options.pruning);
+  if (kind == SkeletonKind::kKernel) {
+    RefuseOfCurves(command, options.pruning, "--kind kernel has none");
+  }
+  if (kind != SkeletonKind::kSurface) return;
+  if (command.count("--tips") > 0) {
+    throw CLI::ValidationError("--tips is for curves, and --kind surface has none");
+  }
+  RefuseOfGraphs(command, options.junction_reach);
+}
+
+void TakeLastShell(const CLI::App& command, int32_t shell, SkeletonizeOptions& options) {
+  options.thinning.last_shell = shell;
+  if (shell <= 0) return;
+  RefuseOfCurves(command, options.pruning, "--last-shell stops before there are curves");
+  RefuseOfGraphs(command, options.junction_reach);
+}
+
 void AddThinning(CLI::App& command, SkeletonizeOptions& options) {
   ThinningOptions& thinning = options.thinning;
   AddChoice<ThinningMethod>(command, "--method", thinning.method,
@@ -142,10 +179,7 @@ void AddThinning(CLI::App& command, SkeletonizeOptions& options) {
                             Choices(kMethodWords));
   AddChoice<SkeletonKind>(
       command, "--kind",
-      [&command, &options](SkeletonKind kind) {
-        options.thinning.kind = kind;
-        if (kind != SkeletonKind::kCurve) DropPresetsThreshold(command, options.pruning);
-      },
+      [&command, &options](SkeletonKind kind) { TakeKind(command, kind, options); },
       "What to keep; all kinds except curve (default) need --method symmetric",
       Choices(kKindWords));
   AddChoice<StubblePolicy>(
@@ -158,8 +192,10 @@ void AddThinning(CLI::App& command, SkeletonizeOptions& options) {
       ->check(Within(kMinShellWidth, kMaxShellWidth))
       ->option_text("X");
   command
-      .add_option("--last-shell", thinning.last_shell,
-                  "Stop after this shell; 0 thins to the end (default)")
+      .add_option_function<int32_t>(
+          "--last-shell",
+          [&command, &options](int32_t shell) { TakeLastShell(command, shell, options); },
+          "Stop after this shell; 0 thins to the end (default)")
       ->check(Within(0, std::numeric_limits<double>::max()))
       ->option_text("N");
   command.add_flag_callback(
