@@ -124,7 +124,8 @@ TEST(MarkupsTest, AreInMillimetersAsSlicersImagesAre) {
     const MarkupsDocument document = WriteMarkups(Lollipop(), {}, {.axes = "RAS", .unit = unit});
     const Json curve = Json::parse(document.text)["markups"][1];
     EXPECT_EQ(curve["coordinateUnits"], "mm");
-    const auto times = [factor](const Json& number) { return number.get<double>() * factor; };
+    const double mm = factor;  // clang 14 captures no structured binding
+    const auto times = [mm](const Json& number) { return number.get<double>() * mm; };
     for (size_t n = 0; n < plain["controlPoints"].size(); ++n) {
       for (size_t axis = 0; axis < 3; ++axis) {
         EXPECT_DOUBLE_EQ(curve["controlPoints"][n]["position"][axis].get<double>(),

@@ -21,7 +21,7 @@ int64_t StayingBlocks(const SkeletonizeOptions& options, const MaskOptions& mask
       {{3, 3, 3}, {4, 4, 4}, {5, 5, 4}, {5, 5, 5}}};
   MaskGrid grid = {.nx = 40, .ny = 8, .nz = 8};
   grid.placement.spacing = {1, 1, slice};
-  const SkeletonizeResult result = SkeletonOf(grid, options, mask, [&](const Voxel& at) {
+  const SkeletonizeResult result = test::SkeletonOf(grid, options, mask, [&](const Voxel& at) {
     const size_t block = static_cast<size_t>(at[0] / 10);
     const Voxel in = {at[0] % 10 - 1, at[1] - 1, at[2] - 1};
     for (size_t axis = 0; axis < 3; ++axis) {
