@@ -182,13 +182,14 @@ class CutFinder {
 }  // namespace
 
 std::optional<LatticePoint> BorderCuts::MiddleBeside(LatticePoint end, double reach) const {
-  if (middles.empty() || std::ranges::find(middles, end) != middles.end()) return std::nullopt;
+  const auto own = points.find(end);
+  if (own != points.end() && middles[own->second] == end) return std::nullopt;
   const auto at = ArrayOf(end), low = ArrayOf(window.low), high = ArrayOf(window.high);
   for (size_t axis = 0; axis < 3; ++axis) {
     for (const int32_t face : {low[axis], high[axis]}) {
       if (scale[axis] * std::abs(face - at[axis]) > reach) continue;
-      const int32_t odd =
-          (face - at[axis]) % 2 != 0 ? 1 : 0;  // a face has points of one sublattice
+      // A face has points of one sublattice.
+      const int32_t odd = (face - at[axis]) % 2 != 0 ? 1 : 0;
       for (const int32_t u : {-odd, odd}) {
         for (const int32_t v : {-odd, odd}) {
           auto near = at;

@@ -15,8 +15,8 @@ constexpr size_t kLeastPlaces = 3;   // fewer than these do not show a limb
 // A trunk is measured at these distances from the junction, in its radii.
 constexpr double kLeastTrunkRadii = 1.5, kTrunkRadii = 2.5, kTrunkStep = 0.5;
 constexpr double kAsThick = 0.75;  // least radius of the trunk there, in that of the junction
-constexpr double kRoundTrunk = 1.4,
-                 kRoundTrunkMargin = 1;  // half-width of a round trunk, in radii plus units
+// Half-width of a round trunk, in radii plus units.
+constexpr double kRoundTrunk = 1.4, kRoundTrunkMargin = 1;
 
 // Lines need not be longer to be those of something wide.
 double ReachFor(double radius) { return 3 * radius + 3; }
