@@ -9,6 +9,7 @@
 #include "core/distance/places.h"
 #include "core/pruning/ball_index.h"
 #include "core/pruning/branch_walk.h"
+#include "core/pruning/bumps.h"
 #include "core/pruning/cross_section.h"
 #include "core/pruning/firm_depth.h"
 #include "core/pruning/flat_end.h"
@@ -26,8 +27,8 @@ namespace {
 constexpr double kGainBySteps = 0.42;  // a tip farther out must be better by so many surface steps
 constexpr double kGainByNoise = 0.06;  // plus this share of the noise allowance; less may be noise
 constexpr double kAimRadii = 1.75;     // like kCutRadii, for the point that shows the direction
-constexpr double kHairLength = 6;      // longest bumps in lattice units; longer ones are thin limbs
-constexpr double kHairRadii = 2;       // the same in radii of the limb
+constexpr double kBumpLength = 6;      // longest bumps in lattice units; longer ones are thin limbs
+constexpr double kBumpRadii = 2;       // the same in radii of the limb
 constexpr double kGrowthRadii = 2;     // longest growth, in radii of the limb's root
 constexpr double kGrowthMargin = 6;    // plus lattice units
 constexpr double kLongStep = 2;        // from this step on by one radius only: caps are too coarse
@@ -36,8 +37,8 @@ constexpr double kOffArcAtRoot = kOffArc / 2;  // the same where the arc begins 
 // In radii: half-widths across a disc's rib and across its shaft, so far before the disc.
 constexpr double kWide = 1.8, kRound = 1.5, kBeforeDisc = 3;
 constexpr double kLimbAfterFlat = 0.95;  // least significance; corners of strips reach 0.9
-constexpr int kMajority = 7;             // object points with fewer object neighbors are bumps
-constexpr int kThinner = 3;              // in thin limbs: with so many fewer than the median
+constexpr double kPointed = 0.7;  // largest radius at the end of a pointed limb, in its root's
+constexpr double kMostRoughness = 0.5;  // above this, single points at the end may be noise
 
 class TipPlacer {
  public:
@@ -46,6 +47,7 @@ class TipPlacer {
             const exec::Context& context)
       : set_(set),
         bricks_(object),
+        bumps_(bricks_),
         radius_(radius),
         depth_(depths.firm),
         steps_(set, object, depths.firm),
@@ -70,8 +72,7 @@ class TipPlacer {
     anchor_ = TakeAnchor(set_, step_, branch);
     if (branch.points.empty()) return;
     path_.assign(branch.points.rbegin(), branch.points.rend());
-    FindMajority();
-    CutHair();
+    CutBumps();
     origin_ = anchor_;
     way_on_ = {};
     direction_ = Unit(set_.Way(anchor_, AimFrom(FirstCut(kAimRadii))));
@@ -238,28 +239,19 @@ class TipPlacer {
     return aim;
   }
 
-  int NeighborsOf(LatticePoint p) {
-    return static_cast<int>(std::ranges::count_if(
-        kDirections14, [&](LatticePoint offset) { return bricks_.Contains(p + offset); }));
+  // Whether the limb narrows toward its end. On a rough surface single points there may be noise.
+  bool HasPoint() const {
+    return noise_.roughness < kMostRoughness &&
+           set_.RadiusOf(path_.back()) < kPointed * root_radius_;
   }
-
-  // Thin limbs have no points with many neighbors near their tips.
-  void FindMajority() {
-    std::vector<float> counts;
-    for (LatticePoint p : path_) counts.push_back(static_cast<float>(NeighborsOf(p)));
-    majority_ = std::clamp(static_cast<int>(MedianOf(counts)) - kThinner, kThinner, kMajority);
-  }
-
-  // Whether p has enough object neighbors to be no bump.
-  bool IsFirm(LatticePoint p) { return NeighborsOf(p) >= majority_; }
 
   // On a noisy surface the path may end in single points, which are no tip.
-  void CutHair() {
-    size_t last = path_.size() - 1;
-    while (last > 0 && !IsFirm(path_[last])) --last;
+  void CutBumps() {
+    bumps_.SetLimb(path_, HasPoint());
+    const size_t last = bumps_.LastFirm(path_);
     const double length = set_.Between(path_[last], path_.back());
-    const double longest = std::min<double>(kHairLength, kHairRadii * MedianOf(RadiiOf(path_)));
-    if (IsFirm(path_[last]) && length <= longest) CutAfter(last);
+    const double longest = std::min<double>(kBumpLength, kBumpRadii * MedianOf(RadiiOf(path_)));
+    if (bumps_.IsFirm(path_[last]) && length <= longest) CutAfter(last);
   }
 
   // Position in the path of the first point that may become the tip. The end must lie in the cap
@@ -290,7 +282,7 @@ class TipPlacer {
   // point that is certainly on the ridge. Single points do not grow. Returns the position in the
   // path of the first point that may become the tip.
   size_t GrowAnew(size_t first) {
-    if (!IsFirm(path_.back())) return first;
+    if (!bumps_.IsFirm(path_.back())) return first;
     const size_t straight = FirstThatShowsWay(BestFrom(first, kRidgeSlope));
     const std::optional<size_t> turned =
         RidgeEndAside(set_, depth_, {path_, first, path_[straight], limb_radius_});
@@ -328,7 +320,8 @@ class TipPlacer {
     const double radii = step_ < kLongStep ? kGrowthRadii : 1;
     const double longest = radii * root_radius_ + kGrowthMargin;
     while (const std::optional<LatticePoint> next = steps_.Next(path_, anchor_)) {
-      if (!IsFirm(*next) || set_.Between(*next, start) > longest || IsInBallOfAnother(*next)) break;
+      if (!bumps_.IsFirm(*next) || set_.Between(*next, start) > longest || IsInBallOfAnother(*next))
+        break;
       Append(*next);
       const double merit = Merit(*next);
       if (merit < best - kTipPatience) break;
@@ -355,6 +348,7 @@ class TipPlacer {
 
   ThinSet& set_;
   NearbyBricks bricks_;
+  Bumps bumps_;
   ExactRadius radius_;
   FirmDepth& depth_;
   TipSteps steps_;
@@ -372,8 +366,7 @@ class TipPlacer {
   std::vector<LatticePoint> own_;         // its points
   LatticePoint root_;                     // where the limb begins; it may be cut off
   double root_radius_ = 0;
-  double limb_radius_ = 0;    // median
-  int majority_ = kMajority;  // in this limb
+  double limb_radius_ = 0;  // median
   LatticePoint anchor_;
   LatticePoint origin_;             // of the way along the limb
   Coordinates direction_ = {};      // of the limb's end, of length 1

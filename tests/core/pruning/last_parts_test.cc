@@ -60,6 +60,32 @@ TEST(LastParts, BeaksKeepTheirCurves) {
   }
 }
 
+// Their last points have few neighbors, as bumps have. The cones end in balls of one unit.
+TEST(LastParts, ConesKeepTheirPoints) {
+  constexpr int32_t kCells = 60;
+  constexpr double kBall = 29, kFoot = 6.4, kHeight = 18;
+  std::array<WorldPoint, 6> ways = {};
+  for (size_t n = 0; n < ways.size(); ++n) ways[n][n / 2] = n % 2 == 0 ? 1 : -1;
+  const auto at = [](const WorldPoint& way, double out) {
+    return WorldPoint{out * way[0], out * way[1], out * way[2]};
+  };
+  const auto mace = [&](const WorldPoint& p) {
+    double distance = ToLimb(p, {0, 0, 0}, kBall, {0, 0, 0}, kBall);
+    for (const WorldPoint& way : ways) {
+      distance = std::min(distance,
+                          ToLimb(p, at(way, 0.9 * kBall), kFoot, at(way, kBall + kHeight - 1), 1));
+    }
+    return distance <= 0;
+  };
+  for (const double turn : {0.0, 0.3, 0.7, 1.1}) {
+    const auto result = Skeletonize(test::Sampled(mace, kCells, turn), {}, {});
+    ASSERT_TRUE(result.ok()) << result.status();
+    for (const WorldPoint& way : ways) {
+      EXPECT_LT(GapAt(at(way, kBall + kHeight), result->graph, kCells, turn), 4) << turn;
+    }
+  }
+}
+
 // The way into a tooth comes through a disk, which is wider than any limb.
 TEST(LastParts, TeethOfADiskKeepTheirCurves) {
   constexpr int32_t kCells = 110, kTeeth = 8;

@@ -1,0 +1,37 @@
+#include "core/pruning/bumps.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "core/pruning/limb_anchor.h"
+
+namespace bccskel {
+namespace {
+
+constexpr int kMajority = 7;  // points with fewer object neighbors are bumps
+constexpr int kThinner = 3;   // in thin limbs: with so many fewer than the median
+
+}  // namespace
+
+void Bumps::SetLimb(std::span<const LatticePoint> limb, bool has_point) {
+  least_ = 0;
+  if (has_point) return;
+  std::vector<float> counts;
+  counts.reserve(limb.size());
+  for (LatticePoint p : limb) counts.push_back(static_cast<float>(NeighborsOf(p)));
+  least_ =
+      std::clamp(static_cast<int>(MedianOf(std::move(counts))) - kThinner, kThinner, kMajority);
+}
+
+size_t Bumps::LastFirm(std::span<const LatticePoint> limb) {
+  size_t last = limb.size() - 1;
+  while (last > 0 && !IsFirm(limb[last])) --last;
+  return last;
+}
+
+int Bumps::NeighborsOf(LatticePoint p) {
+  return static_cast<int>(std::ranges::count_if(
+      kDirections14, [&](LatticePoint offset) { return object_.Contains(p + offset); }));
+}
+
+}  // namespace bccskel
