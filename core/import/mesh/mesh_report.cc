@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/exec/disjoint_sets.h"
+#include "core/import/mesh/boundary_loops.h"
 #include "core/import/mesh/shell_nesting.h"
 #include "core/import/mesh/surface_edges.h"
 #include "core/import/mesh/weld.h"
@@ -231,6 +232,23 @@ double SignedVolume(const Surface& surface, const Triangle& t, const Vertex& ape
   return Dot(a, Cross(b, c)) / 6;
 }
 
+double AreaOf(std::span<const Vertex> vertices, std::span<const Triangle> triangles) {
+  double area = 0;
+  for (const auto& [a, b, c] : triangles) {
+    const Vertex normal =
+        Cross(Subtract(vertices[b], vertices[a]), Subtract(vertices[c], vertices[a]));
+    area += std::sqrt(Dot(normal, normal)) / 2;
+  }
+  return area;
+}
+
+double HoleShare(const Reading& reading) {
+  const std::span<const Vertex> vertices = reading.mesh.vertices;
+  const double surface = AreaOf(vertices, reading.mesh.triangles);
+  const double holes = AreaOf(vertices, CapsOf(BoundaryLoops(reading.sides, vertices.size())));
+  return surface > 0 ? holes / surface : 0;
+}
+
 Vertex ToWorld(const Surface& surface, const Vertex& unit) {
   Vertex world;
   for (size_t axis = 0; axis < 3; ++axis) {
@@ -332,6 +350,9 @@ Surface PrepareSurface(const TriangleMesh& mesh) {
   ScaleToUnit(unit, surface);
   Reading reading = ReadOneSide(ChooseReading(unit), surface.report);
   ReportEdges(reading, surface.report);
+  if (surface.report.closure == SurfaceClosure::kOpen) {
+    surface.report.hole_share = HoleShare(reading);
+  }
   surface.report.dropped_triangles =
       mesh.triangles.size() - reading.mesh.triangles.size() - surface.report.two_sided_triangles;
   uint32_t components = 0;

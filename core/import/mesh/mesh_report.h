@@ -53,6 +53,8 @@ struct MeshReport {
   uint64_t non_manifold_edges = 0;  // in more than two triangles
   uint64_t misoriented_edges = 0;   // in two or more triangles, not equally often in both senses
   SurfaceClosure closure = SurfaceClosure::kOpen;
+  // Area of the triangles that would close the holes, relative to that of the others; 0 if closed.
+  double hole_share = 0;
   std::vector<SurfaceComponent> components;
   std::optional<int64_t> genus;      // of all components together
   double volume = 0;                 // sum over components; infinite where a double cannot hold it

@@ -5,13 +5,20 @@
 namespace bccskel {
 namespace {
 
+// Up to this share of the surface, holes hardly leave a doubt about the inside.
+constexpr double kMostHoles = 0.1;
+
 std::string DescribeDefects(const MeshReport& mesh) {
   const auto counted = [](uint64_t edges, const char* kind) {
     return absl::StrFormat("%d %s %s", edges, kind, edges == 1 ? "edge" : "edges");
   };
-  return counted(mesh.boundary_edges, "boundary") + ", " +
-         counted(mesh.non_manifold_edges, "non-manifold") + ", " +
-         counted(mesh.misoriented_edges, "misoriented");
+  const std::string edges = counted(mesh.boundary_edges, "boundary") + ", " +
+                            counted(mesh.non_manifold_edges, "non-manifold") + ", " +
+                            counted(mesh.misoriented_edges, "misoriented");
+  if (mesh.closure != SurfaceClosure::kOpen) return edges;
+  const double percent = 100 * mesh.hole_share;
+  if (percent < 0.01) return edges + "; holes: less than 0.01 % of the surface";
+  return edges + absl::StrFormat("; holes: %.*f %% of the surface", percent < 1 ? 2 : 0, percent);
 }
 
 // Shells inside a shell of the same orientation: solid for one rule, cavities for the other.
@@ -32,6 +39,7 @@ int64_t CountAmbiguousShells(const MeshReport& mesh) {
 absl::StatusOr<FillRule> ChooseFillRule(const MeshReport& mesh, FillRule wanted) {
   const bool open = mesh.closure == SurfaceClosure::kOpen;
   if (open && wanted == FillRule::kAuto) {
+    if (mesh.hole_share <= kMostHoles && mesh.misoriented_edges == 0) return FillRule::kWinding;
     const char* const what = mesh.two_sided_triangles == 0
                                  ? "the mesh"
                                  : "nothing enclosed: every triangle is there from both sides, and "

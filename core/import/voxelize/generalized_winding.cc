@@ -64,10 +64,28 @@ double SolidAngle(const Vector& a, const Vector& b, const Vector& c) {
   return 2 * ExactSide(a, b, c) * std::atan2(std::abs(across), along);
 }
 
-// Most that a boundary of this length adds to the gradient from this distance or farther.
+// Most that a part of the boundary adds to the gradient where all of it is this far away or
+// farther.
 double GradientBound(double length, double distance) {
   if (distance <= 0) return std::numeric_limits<double>::infinity();
   return length / (kFourPi * distance * distance);
+}
+
+// The same for a closed part, which is a dipole from so far away.
+double DipoleBound(const Vector& dipole, double distance) {
+  if (distance <= 0) return std::numeric_limits<double>::infinity();
+  return 2 * Length(dipole) / (distance * distance * distance);
+}
+
+// The same for a straight edge, which adds no more than an endless line.
+double EdgeBound(const Vector& a, const Vector& b, double reach) {
+  if (reach == 0) return 0;
+  const Vector along = b - a;
+  const double square = Dot(along, along);
+  const double part = square == 0 ? 0 : std::clamp(-Dot(a, along) / square, 0.0, 1.0);
+  const double distance = Length(a + along * part) - reach;
+  if (distance <= 0) return std::numeric_limits<double>::infinity();
+  return std::min(GradientBound(std::sqrt(square), distance), 2 / (kFourPi * distance));
 }
 
 void AppendSpan(CellSpan span, std::vector<CellSpan>& spans) {
@@ -81,67 +99,91 @@ void AppendSpan(CellSpan span, std::vector<CellSpan>& spans) {
 }  // namespace
 
 GeneralizedWindingRule::GeneralizedWindingRule(std::span<const GridPoint> vertices,
-                                               const BoundaryCaps& caps,
+                                               std::span<const std::vector<uint32_t>> loops,
                                                const LatticeExtent& extent, int sign)
     : sign_(sign) {
-  for (const auto& [begin, end] : caps.caps) {
-    caps_.push_back(MakeCap(vertices, std::span(caps.triangles).subspan(begin, end - begin)));
-    regions_.push_back(BoxOf(caps_.back(), extent));
+  for (const std::vector<uint32_t>& loop : loops) {
+    std::vector<Vector> points;
+    points.reserve(loop.size());
+    for (uint32_t vertex : loop) points.push_back(InLatticeUnits(vertices[vertex]));
+    caps_.push_back(AddPatch(points));
+    patches_.back().is_cap = true;
+    regions_.push_back(BoxOf(points, extent));
   }
 }
 
-GeneralizedWindingRule::Cap GeneralizedWindingRule::MakeCap(
-    std::span<const GridPoint> vertices, std::span<const TriangleMesh::Triangle> triangles) {
-  Cap cap;
-  cap.middle = InLatticeUnits(vertices[triangles[0][2]]);
-  for (const auto& [a, b, c] : triangles) {
-    const CapTriangle t = {InLatticeUnits(vertices[a]), InLatticeUnits(vertices[b]), cap.middle};
-    cap.radius = std::max(cap.radius, Length(t.from - cap.middle));
-    cap.perimeter += Length(t.to - t.from);
-    cap.dipole = cap.dipole + Cross(t.from - t.apex, t.to - t.apex) * (0.5 / kFourPi);
-    cap.triangles.push_back(t);
+// As ForEachTriangleOfCap() splits it.
+int32_t GeneralizedWindingRule::AddPatch(std::span<const Vector> loop) {
+  if (loop.size() < 3) return kEdge;
+  const size_t half = (loop.size() - 1) / 2;
+  Patch patch = {{loop.front(), loop[half], loop.back()}};
+  const auto& [a, b, c] = patch.corners;
+  patch.beyond = {AddPatch(loop.first(half + 1)), AddPatch(loop.subspan(half))};
+  const Vector doubled = Cross(b - a, c - a);
+  patch.area = Length(doubled) / 2;
+  patch.dipole = doubled * (0.5 / kFourPi);
+  patch.middle = (a + b + c) * (patch.area / 3);
+  for (int32_t part : patch.beyond) {
+    if (part == kEdge) continue;
+    const Patch& beyond = patches_[static_cast<size_t>(part)];
+    patch.area += beyond.area;
+    patch.dipole = patch.dipole + beyond.dipole;
+    patch.middle = patch.middle + beyond.middle * beyond.area;
   }
-  return cap;
+  patch.middle = patch.area > 0 ? patch.middle * (1 / patch.area) : b;
+  for (size_t n = 0; n < loop.size(); ++n) {
+    patch.radius = std::max(patch.radius, Length(loop[n] - patch.middle));
+    if (n > 0) patch.length += Length(loop[n] - loop[n - 1]);
+  }
+  patches_.push_back(patch);
+  return static_cast<int32_t>(patches_.size()) - 1;
 }
 
-SegmentRule::Region GeneralizedWindingRule::BoxOf(const Cap& cap, const LatticeExtent& extent) {
+SegmentRule::Region GeneralizedWindingRule::BoxOf(std::span<const Vector> loop,
+                                                  const LatticeExtent& extent) {
   const auto cells = [](double low, double high, int32_t limit) {
     return CellSpan{std::clamp(static_cast<int32_t>(std::floor((low - 1) / 2)), 0, limit),
                     std::clamp(static_cast<int32_t>(std::floor(high / 2)) + 1, 0, limit)};
   };
-  Vector low = cap.middle, high = cap.middle;
-  for (const CapTriangle& t : cap.triangles) {
+  Vector low = loop[0], high = loop[0];
+  for (const Vector& p : loop) {
     for (size_t axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min(low[axis], t.from[axis]);
-      high[axis] = std::max(high[axis], t.from[axis]);
+      low[axis] = std::min(low[axis], p[axis]);
+      high[axis] = std::max(high[axis], p[axis]);
     }
   }
   return {cells(low[0], high[0], extent.nx), cells(low[1], high[1], extent.ny),
           cells(low[2], high[2], extent.nz)};
 }
 
-void GeneralizedWindingRule::AddNear(const Cap& cap, const Vector& p, double reach, Field& field) {
-  for (const CapTriangle& t : cap.triangles) {
-    const Vector a = t.from - p, b = t.to - p;
-    const double length = Length(t.to - t.from);
-    field.value += SolidAngle(a, b, t.apex - p) / kFourPi;
-    field.change += reach * GradientBound(length, Length((a + b) * 0.5) - length / 2 - reach);
+void GeneralizedWindingRule::AddField(int32_t patch, const Vector& p, double reach,
+                                      Field& field) const {
+  const Patch& at = patches_[static_cast<size_t>(patch)];
+  const Vector to = at.middle - p;
+  const double distance = Length(to);
+  if (distance > kFarInRadii * at.radius) {
+    field.value += Dot(at.dipole, to) / (distance * distance * distance);
+    const double nearest = distance - at.radius - reach;
+    field.change +=
+        reach * (at.is_cap ? DipoleBound(at.dipole, nearest) : GradientBound(at.length, nearest));
+    return;
+  }
+  const Vector a = at.corners[0] - p, b = at.corners[1] - p, c = at.corners[2] - p;
+  field.value += SolidAngle(a, b, c) / kFourPi;
+  if (at.is_cap) field.change += reach * EdgeBound(c, a, reach);
+  for (size_t side = 0; side < 2; ++side) {
+    if (at.beyond[side] != kEdge) {
+      AddField(at.beyond[side], p, reach, field);
+    } else {
+      field.change += reach * (side == 0 ? EdgeBound(a, b, reach) : EdgeBound(b, c, reach));
+    }
   }
 }
 
 GeneralizedWindingRule::Field GeneralizedWindingRule::CapField(const Vector& p,
                                                                double reach) const {
   Field field;
-  for (const Cap& cap : caps_) {
-    const Vector to = cap.middle - p;
-    const double distance = Length(to);
-    if (distance <= kFarInRadii * cap.radius) {
-      AddNear(cap, p, reach, field);
-    } else {
-      field.value += Dot(cap.dipole, to) / (distance * distance * distance);
-      field.change += reach * GradientBound(cap.perimeter, distance - cap.radius - reach);
-    }
-  }
+  for (int32_t cap : caps_) AddField(cap, p, reach, field);
   return field;
 }
 

@@ -2,11 +2,10 @@
 #define BCCSKEL_CORE_IMPORT_VOXELIZE_GENERALIZED_WINDING_H_
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
-#include "core/import/mesh/triangle_mesh.h"
-#include "core/import/voxelize/boundary_caps.h"
 #include "core/import/voxelize/row_fill.h"
 
 namespace bccskel {
@@ -17,20 +16,22 @@ namespace bccskel {
 //        integer that the rays count; subtracting the solid angles of the caps alone leaves the
 //        winding number of the open surface, at the price of the boundary instead of every
 //        triangle. Between crossings of a row the caps' part is smooth; its gradient is at most
-//        the sum of length / (4 pi distance^2) over the boundary edges (the law of Biot and
-//        Savart), so one value may decide a whole segment.
-// Cost:  per segment the near boundary edges, times a few halvings beside them. A cap seen from
-//        more than 4 of its radii away counts as a dipole (Barill et al. 2018), error below 10^-3.
+//        the sum over the boundary edges of the smaller of length / (4 pi distance^2) and
+//        2 / (4 pi distance) (the law of Biot and Savart), so one value may decide a whole segment.
+// Cost:  per segment a few halvings beside the boundary; per value the triangles of the caps nearby
+//        and the logarithm of the others, since a part of a cap seen from more than 4 of its radii
+//        away counts as a dipole (Barill et al. 2018), error below 10^-3.
 // Ties:  on a cap the solid angle jumps by 4 pi; its side is found exactly, as for the rays.
 //        A value of 1/2, as in the plane of a hole, is outside; 10^-9 keep rounding out of it.
 class GeneralizedWindingRule : public SegmentRule {
  public:
   using Vector = std::array<double, 3>;
 
-  // Shapes: `vertices` in ticks as for the rays, apexes included. `sign` is the sense (+1 or -1) of
-  //         the surface and its caps.
-  GeneralizedWindingRule(std::span<const GridPoint> vertices, const BoundaryCaps& caps,
-                         const LatticeExtent& extent, int sign);
+  // Shapes: `vertices` in ticks as for the rays; `loops` of them, see BoundaryLoops(). `sign` is
+  //         the sense (+1 or -1) of the surface and its caps.
+  GeneralizedWindingRule(std::span<const GridPoint> vertices,
+                         std::span<const std::vector<uint32_t>> loops, const LatticeExtent& extent,
+                         int sign);
 
   void Append(const LatticeRow& row, CellSpan segment, int winding, int crossings,
               std::vector<CellSpan>& inside) const override;
@@ -38,31 +39,35 @@ class GeneralizedWindingRule : public SegmentRule {
   std::span<const Region> extra_regions() const override { return regions_; }
 
  private:
-  struct CapTriangle {
-    Vector from, to, apex;
-  };
-  struct Cap {
-    std::vector<CapTriangle> triangles;
-    Vector middle = {};
+  // What closes a part of a loop by a chord (see ForEachTriangleOfCap()): a triangle and the
+  // patches beyond its first two sides.
+  struct Patch {
+    std::array<Vector, 3> corners = {};
+    std::array<int32_t, 2> beyond = {kEdge, kEdge};  // in patches_
+    Vector middle = {};                              // weighted by area
     double radius = 0;
     Vector dipole = {};  // area vector / (4 pi)
-    double perimeter = 0;
+    double area = 0;
+    double length = 0;    // of the part of the loop
+    bool is_cap = false;  // the whole loop, whose chord is an edge of the boundary, too
   };
+  static constexpr int32_t kEdge = -1;  // no patch: an edge of the boundary
+
   // The caps' winding number at a point and a bound on its change within a distance.
   struct Field {
     double value = 0;
     double change = 0;
   };
 
-  static Cap MakeCap(std::span<const GridPoint> vertices,
-                     std::span<const TriangleMesh::Triangle> triangles);
-  static Region BoxOf(const Cap& cap, const LatticeExtent& extent);
-  static void AddNear(const Cap& cap, const Vector& p, double reach, Field& field);
+  int32_t AddPatch(std::span<const Vector> loop);
+  static Region BoxOf(std::span<const Vector> loop, const LatticeExtent& extent);
+  void AddField(int32_t patch, const Vector& p, double reach, Field& field) const;
   Field CapField(const Vector& p, double reach) const;
   void Decide(const LatticeRow& row, CellSpan segment, int winding,
               std::vector<CellSpan>& inside) const;
 
-  std::vector<Cap> caps_;
+  std::vector<Patch> patches_;
+  std::vector<int32_t> caps_;  // in patches_
   std::vector<Region> regions_;
   int sign_;
 };

@@ -53,32 +53,31 @@ SolidFill::SolidFill(const Surface& surface, FillRule rule, uint64_t max_points)
     : surface_(surface),
       rule_(rule),
       max_points_(max_points),
-      vertices_(surface.vertices),
       triangles_(surface.triangles),
       signs_(SignsByComponent(surface)) {
   if (surface.report.closure == SurfaceClosure::kOpen) AddCaps();
 }
 
 void SolidFill::AddCaps() {
-  caps_ = CapBoundary(surface_);
-  vertices_.insert(vertices_.end(), caps_.apexes.begin(), caps_.apexes.end());
-  triangles_.insert(triangles_.end(), caps_.triangles.begin(), caps_.triangles.end());
-  const int8_t sign = SignedVolume(vertices_, triangles_) < 0 ? -1 : 1;
+  loops_ = BoundaryLoops(SortedSides(surface_.triangles), surface_.vertices.size());
+  const std::vector<TriangleMesh::Triangle> caps = CapsOf(loops_);
+  triangles_.insert(triangles_.end(), caps.begin(), caps.end());
+  const int8_t sign = SignedVolume(surface_.vertices, triangles_) < 0 ? -1 : 1;
   signs_.assign(triangles_.size(), sign);
 }
 
 FillRequest SolidFill::RequestOn(const GridFit& fit) const {
   FillRequest request = {fit.extent, fit.placement, {}, triangles_, signs_, max_points_};
-  request.vertices.reserve(vertices_.size());
-  for (const auto& vertex : vertices_) request.vertices.push_back(fit.Snap(vertex));
+  request.vertices.reserve(surface_.vertices.size());
+  for (const auto& vertex : surface_.vertices) request.vertices.push_back(fit.Snap(vertex));
   return request;
 }
 
 absl::StatusOr<Volume> SolidFill::Fill(const FillRequest& request,
                                        const exec::Context& context) const {
   if (rule_ == FillRule::kParity) return FillRows(request, ParityRule(), context);
-  if (caps_.caps.empty()) return FillRows(request, WindingRule(), context);
-  const GeneralizedWindingRule rule(request.vertices, caps_, request.extent, signs_.front());
+  if (loops_.empty()) return FillRows(request, WindingRule(), context);
+  const GeneralizedWindingRule rule(request.vertices, loops_, request.extent, signs_.front());
   return FillRows(request, rule, context);
 }
 

@@ -6,8 +6,8 @@
 
 #include "absl/status/statusor.h"
 #include "core/exec/context.h"
+#include "core/import/mesh/boundary_loops.h"
 #include "core/import/mesh/mesh_report.h"
-#include "core/import/voxelize/boundary_caps.h"
 #include "core/import/voxelize/fill_rule.h"
 #include "core/import/voxelize/grid_fit.h"
 #include "core/import/voxelize/row_fill.h"
@@ -36,10 +36,9 @@ class SolidFill {
   const Surface& surface_;
   const FillRule rule_;
   const uint64_t max_points_;
-  std::vector<TriangleMesh::Vertex> vertices_;  // of the surface, then the apexes of the caps
-  std::vector<TriangleMesh::Triangle> triangles_;
-  std::vector<int8_t> signs_;  // per triangle: +1, or -1 to turn it outward
-  BoundaryCaps caps_;          // none when the surface is closed
+  std::vector<TriangleMesh::Triangle> triangles_;  // of the surface, then of the caps
+  std::vector<int8_t> signs_;                      // per triangle: +1, or -1 to turn it outward
+  std::vector<std::vector<uint32_t>> loops_;  // of the boundary; none when the surface is closed
 };
 
 }  // namespace bccskel

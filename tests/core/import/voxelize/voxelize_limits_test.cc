@@ -86,9 +86,7 @@ TEST(VoxelizePoints, AreMetWhereTheFacetsOfAnOpenMeshAreThereFromBothSides) {
   EXPECT_EQ(both.volume, one.volume);
   twice.triangles.push_back(open.triangles.front());
   twice.triangles.push_back(flipped.triangles.front());
-  const auto refused = Voxelize(twice, {.points = 2000}, {});
-  EXPECT_THAT(refused.status().message(), HasSubstr("--fill winding"));
-  EXPECT_TRUE(Voxelize(twice, {.points = 2000, .fill = FillRule::kWinding}, {}).ok());
+  EXPECT_TRUE(Voxelize(twice, {.points = 2000}, {}).ok());
 }
 
 TEST(VoxelizePoints, SaysSoWhereWholeLayersOfACubeLeaveNoCountNearby) {

@@ -147,10 +147,27 @@ TEST(FillRule, TopologyIsNotCountedWhenNotAskedFor) {
   EXPECT_THAT(result.warnings, IsEmpty());
 }
 
+TEST(FillRule, AutoFillsSurfacesWithSmallHolesAndSaysSo) {
+  const TriangleMesh open = CutSphere(0.9);
+  const VoxelizeResult result = WithSpacing(open, 0.1);
+  EXPECT_EQ(result.fill, FillRule::kWinding);
+  ASSERT_FALSE(result.warnings.empty());
+  EXPECT_THAT(result.warnings.front(), HasSubstr("not closed (32 boundary edges"));
+  EXPECT_THAT(result.warnings.front(), HasSubstr("holes: 4 % of the surface"));
+  EXPECT_EQ(result.volume, WithSpacing(open, 0.1, FillRule::kWinding).volume);
+}
+
+TEST(FillRule, AutoRefusesSmallHolesWhereTrianglesTurnDifferently) {
+  TriangleMesh open = CutSphere(0.9);
+  std::swap(open.triangles[0][0], open.triangles[0][1]);
+  EXPECT_EQ(Refusal(open, FillRule::kAuto).code(), absl::StatusCode::kFailedPrecondition);
+}
+
 TEST(FillRule, OpenSurfacesAreRefusedUnlessWindingIsAskedFor) {
   const TriangleMesh open = CutSphere(0.5);
   EXPECT_EQ(Refusal(open, FillRule::kAuto).code(), absl::StatusCode::kFailedPrecondition);
   EXPECT_THAT(Refusal(open, FillRule::kAuto).message(), HasSubstr("32 boundary edges"));
+  EXPECT_THAT(Refusal(open, FillRule::kAuto).message(), HasSubstr(" % of the surface"));
   EXPECT_EQ(Refusal(open, FillRule::kParity).code(), absl::StatusCode::kInvalidArgument);
   const VoxelizeResult result = WithSpacing(open, 0.1, FillRule::kWinding);
   EXPECT_THAT(result.warnings,
@@ -165,9 +182,9 @@ TEST(FillRule, AGapOfATJunctionIsOpenAndAFlatTriangleInItCloses) {
   split.vertices.push_back({0.5, 0, 0});
   split.triangles[4] = {0, 8, 5};
   split.triangles.push_back({8, 1, 5});
-  EXPECT_EQ(Refusal(split, FillRule::kAuto).code(), absl::StatusCode::kFailedPrecondition);
+  EXPECT_EQ(Refusal(split, FillRule::kParity).code(), absl::StatusCode::kInvalidArgument);
   const Volume box = WithSpacing(Box({0, 0, 0}, {1, 1, 1}), 0.03).volume;
-  EXPECT_EQ(WithSpacing(split, 0.03, FillRule::kWinding).volume, box);
+  EXPECT_EQ(WithSpacing(split, 0.03).volume, box);
   split.triangles.push_back({0, 1, 8});
   EXPECT_EQ(WithSpacing(split, 0.03).volume, box);
 }
