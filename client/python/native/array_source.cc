@@ -38,13 +38,9 @@ SliceValues ArraySource::Values(const std::byte* slice) {
   return buffer_.values();
 }
 
-absl::StatusOr<ImageSlice> ArraySource::NextSlice() {
-  if (next_z_ == info_.size.nz) return absl::OutOfRangeError("the array has no more slices");
-  const int32_t z = next_z_++;
+absl::StatusOr<SliceValues> ArraySource::ReadSlice(int32_t z) {
   const std::byte* slice = array_.data + z * array_.strides[0];
-  const SliceValues values =
-      WithVoxelType(array_.type, [&](auto zero) { return Values<decltype(zero)>(slice); });
-  return ImageSlice{info_.size.nx, info_.size.ny, z, values};
+  return WithVoxelType(array_.type, [&](auto zero) { return Values<decltype(zero)>(slice); });
 }
 
 }  // namespace bccskel::python

@@ -25,18 +25,15 @@ class ArraySource final : public ImageSource {
   // Errors: as SizeOfAxes().
   static absl::StatusOr<ArraySource> Create(const ArrayView& array, const Placement& placement);
 
-  const ImageInfo& info() const override { return info_; }
-  absl::StatusOr<ImageSlice> NextSlice() override;
-
  private:
-  ArraySource(const ArrayView& array, ImageInfo info) : array_(array), info_(std::move(info)) {}
+  ArraySource(const ArrayView& array, ImageInfo info)
+      : ImageSource(std::move(info)), array_(array) {}
+  absl::StatusOr<SliceValues> ReadSlice(int32_t z) override;
   template <typename T>
   SliceValues Values(const std::byte* slice);
 
   ArrayView array_;
-  ImageInfo info_;
   SliceBuffer buffer_;
-  int32_t next_z_ = 0;
 };
 
 }  // namespace bccskel::python

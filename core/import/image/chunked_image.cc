@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <new>
 #include <utility>
 
 #include "absl/strings/str_format.h"
@@ -36,44 +35,32 @@ void CopyRow(const std::byte* from, size_t step, std::byte* to, size_t count, si
 class ChunkedSource : public ImageSource {
  public:
   ChunkedSource(ChunkedImage image, std::unique_ptr<ChunkStore> store, uint64_t max_slab_bytes)
-      : image_(std::move(image)),
+      : ImageSource(image.info),
+        image_(std::move(image)),
         store_(std::move(store)),
         bytes_(VoxelBytes(image_.stored_type)),
         most_slices_(static_cast<int64_t>(
             std::max<uint64_t>(1, max_slab_bytes / (image_.info.size.SliceVoxels() * bytes_)))) {}
 
-  const ImageInfo& info() const override { return image_.info; }
-
-  absl::StatusOr<ImageSlice> NextSlice() override {
-    const ImageSize& size = image_.info.size;
-    if (z_ >= size.nz) {
-      return absl::OutOfRangeError(absl::StrFormat("the image has %d slices", size.nz));
-    }
-    try {
-      if (z_ >= end_) BCCSKEL_RETURN_IF_ERROR(ReadSlab());
-      slice_.Resize(image_.stored_type, size.SliceVoxels());
-      std::memcpy(slice_.bytes().data(), SlabAt(0, 0, z_), slice_.bytes().size());
-      slice_.SwapFrom(image_.byte_order);
-      const SliceValues values =
-          image_.halves == StoredHalves::kYes ? slice_.Halves() : slice_.values();
-      return ImageSlice{.nx = size.nx, .ny = size.ny, .z = z_++, .values = values};
-    } catch (const std::bad_alloc&) {
-      return absl::ResourceExhaustedError(absl::StrFormat(
-          "not enough memory for a chunk, or for slices of %d x %d", size.nx, size.ny));
-    }
+ private:
+  absl::StatusOr<SliceValues> ReadSlice(int32_t z) override {
+    if (z >= end_) BCCSKEL_RETURN_IF_ERROR(ReadSlab(z));
+    slice_.Resize(image_.stored_type, info_.size.SliceVoxels());
+    std::memcpy(slice_.bytes().data(), SlabAt(0, 0, z), slice_.bytes().size());
+    slice_.SwapFrom(image_.byte_order);
+    return image_.halves == StoredHalves::kYes ? slice_.Halves() : slice_.values();
   }
 
- private:
   std::byte* SlabAt(int64_t x, int64_t y, int64_t z) {
-    const ImageSize& size = image_.info.size;
+    const ImageSize& size = info_.size;
     return slab_.data() + static_cast<size_t>(((z - begin_) * size.ny + y) * size.nx + x) * bytes_;
   }
 
-  // The slices of one row of chunks from z_ on, as many as fit.
-  absl::Status ReadSlab() {
-    const ImageSize& size = image_.info.size;
-    const int64_t layer = z_ / image_.chunk_size[2];
-    begin_ = z_;
+  // The slices of one row of chunks from z on, as many as fit.
+  absl::Status ReadSlab(int32_t z) {
+    const ImageSize& size = info_.size;
+    const int64_t layer = z / image_.chunk_size[2];
+    begin_ = z;
     end_ = std::min({(layer + 1) * image_.chunk_size[2], int64_t{size.nz}, begin_ + most_slices_});
     slab_.resize(static_cast<size_t>(end_ - begin_) * size.SliceVoxels() * bytes_);
     for (int64_t y = 0; y < ChunksAlong(size.ny, image_.chunk_size[1]); ++y) {
@@ -89,7 +76,7 @@ class ChunkedSource : public ImageSource {
     // A missing chunk is one that repeats a single voxel.
     const ChunkVoxels voxels =
         there.has_value() ? *there : ChunkVoxels{.first = image_.fill.data(), .step = {0, 0, 0}};
-    const ChunkIndex axes = AxesOf(image_.info.size);
+    const ChunkIndex axes = AxesOf(info_.size);
     const int64_t x0 = chunk[0] * image_.chunk_size[0], y0 = chunk[1] * image_.chunk_size[1],
                   z0 = chunk[2] * image_.chunk_size[2];
     const auto width = static_cast<size_t>(std::min(image_.chunk_size[0], axes[0] - x0));
@@ -111,7 +98,6 @@ class ChunkedSource : public ImageSource {
   exec::UninitializedVector<std::byte> slab_;  // the slices from begin_ to end_
   int64_t begin_ = 0;
   int64_t end_ = 0;
-  int32_t z_ = 0;
   SliceBuffer slice_;
 };
 

@@ -19,6 +19,7 @@
 #include "core/import/image/dicom_header.h"
 #include "core/import/image/dicom_series.h"
 #include "core/import/image/dicom_stack.h"
+#include "core/import/image/slice_buffer.h"
 
 namespace bccskel {
 namespace {
@@ -150,22 +151,13 @@ absl::StatusOr<DicomVoxels> ReadBits(const DicomHeader& header) {
 class DicomSource : public ImageSource {
  public:
   DicomSource(Headers files, DicomStack stack)
-      : files_(std::move(files)), slices_(std::move(stack.slices)) {
-    info_.size = stack.size;
-    info_.placement = stack.placement;
-    info_.unit = "mm";
-    info_.world = "LPS";
-  }
-
-  const ImageInfo& info() const override { return info_; }
-
-  absl::StatusOr<ImageSlice> NextSlice() override {
-    if (next_ == info_.size.nz) return absl::OutOfRangeError("all slices have been read");
-    const int32_t z = next_++;
-    ImageSlice slice = {info_.size.nx, info_.size.ny, z, {}};
-    BCCSKEL_ASSIGN_OR_RETURN(slice.values, ValuesOf(slices_[static_cast<size_t>(z)]));
-    return slice;
-  }
+      : ImageSource({.format = "",
+                     .size = stack.size,
+                     .placement = stack.placement,
+                     .unit = "mm",
+                     .world = "LPS"}),
+        files_(std::move(files)),
+        slices_(std::move(stack.slices)) {}
 
  protected:
   virtual absl::StatusOr<SliceValues> ValuesOf(const std::vector<DicomFrame>& frames) = 0;
@@ -185,14 +177,15 @@ class DicomSource : public ImageSource {
     return &voxels_;
   }
 
-  ImageInfo info_;
-
  private:
+  absl::StatusOr<SliceValues> ReadSlice(int32_t z) final {
+    return ValuesOf(slices_[static_cast<size_t>(z)]);
+  }
+
   Headers files_;
   std::vector<std::vector<DicomFrame>> slices_;
   DicomVoxels voxels_;
   std::optional<size_t> file_;
-  int32_t next_ = 0;
 };
 
 // Values; rescaled ones are doubles, as those of NIfTI.
@@ -216,42 +209,16 @@ class DicomValues final : public DicomSource {
   absl::StatusOr<SliceValues> ValuesOf(const std::vector<DicomFrame>& frames) override {
     const DicomFrame& frame = frames.front();
     BCCSKEL_ASSIGN_OR_RETURN(const DicomVoxels* voxels, VoxelsOf(frame.file, ExpandVoxels));
-    switch (voxels->type) {
-      case VoxelType::kUint8:
-        return Values<uint8_t>(*voxels, frame);
-      case VoxelType::kInt8:
-        return Values<int8_t>(*voxels, frame);
-      case VoxelType::kInt16:
-        return Values<int16_t>(*voxels, frame);
-      case VoxelType::kUint32:
-        return Values<uint32_t>(*voxels, frame);
-      case VoxelType::kInt32:
-        return Values<int32_t>(*voxels, frame);
-      default:
-        return Values<uint16_t>(*voxels, frame);
-    }
+    buffer_.Resize(voxels->type, SliceVoxels());
+    const std::span<std::byte> bytes = buffer_.bytes();
+    std::memcpy(bytes.data(), voxels->bytes.data() + frame.index * bytes.size(), bytes.size());
+    if (info_.type == VoxelType::kFloat64) return buffer_.Scaled(voxels->slope, voxels->intercept);
+    if (IsPlain(*voxels) && voxels->type == info_.type) return buffer_.values();
+    return absl::InvalidArgumentError(absl::StrFormat(
+        "'%s' has voxels of another type or scale than the first slice", frame.name));
   }
 
-  template <typename T>
-  absl::StatusOr<SliceValues> Values(const DicomVoxels& voxels, const DicomFrame& frame) {
-    const char* const from = voxels.bytes.data() + frame.index * SliceVoxels() * sizeof(T);
-    plain_.resize(SliceVoxels() * sizeof(T));
-    std::memcpy(plain_.data(), from, plain_.size());
-    const std::span<const T> stored(reinterpret_cast<const T*>(plain_.data()), SliceVoxels());
-    if (info_.type != VoxelType::kFloat64) {
-      if (IsPlain(voxels) && voxels.type == info_.type) return SliceValues(stored);
-      return absl::InvalidArgumentError(absl::StrFormat(
-          "'%s' has voxels of another type or scale than the first slice", frame.name));
-    }
-    rescaled_.resize(SliceVoxels());
-    std::ranges::transform(stored, rescaled_.begin(), [&voxels](T value) {
-      return voxels.slope * static_cast<double>(value) + voxels.intercept;
-    });
-    return SliceValues(std::span<const double>(rescaled_));
-  }
-
-  std::vector<std::byte> plain_;
-  std::vector<double> rescaled_;
+  SliceBuffer buffer_;
 };
 
 // Segment numbers.
@@ -325,9 +292,6 @@ absl::StatusOr<std::unique_ptr<ImageSource>> OpenDicom(const std::string& path,
       DicomStack stack,
       StackFrames(std::move(frames), segments ? DicomGaps::kEmpty : DicomGaps::kRefused,
                   options.limits));
-  if (options.spacing.has_value()) {
-    BCCSKEL_ASSIGN_OR_RETURN(stack.placement, WithSpacing(stack.placement, *options.spacing));
-  }
   if (segments) return std::make_unique<DicomSegments>(std::move(files), std::move(stack));
   const size_t first = stack.slices.front().front().file;
   auto source = std::make_unique<DicomValues>(std::move(files), std::move(stack));

@@ -1,8 +1,10 @@
 #ifndef BCCSKEL_CORE_IMPORT_IMAGE_IMAGE_SOURCE_H_
 #define BCCSKEL_CORE_IMPORT_IMAGE_IMAGE_SOURCE_H_
 
+#include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <variant>
 
 #include "absl/status/statusor.h"
@@ -30,12 +32,26 @@ class ImageSource {
  public:
   virtual ~ImageSource() = default;
 
-  virtual const ImageInfo& info() const = 0;
+  const ImageInfo& info() const { return info_; }
+
+  // Replaces the spacing of the file. Errors: as PlacementOfSpacing().
+  absl::Status SetSpacing(const std::array<double, 3>& spacing);
 
   // The slice z = 0, then 1, and so on; its values live until the next call.
   // Errors: INVALID_ARGUMENT (cut or damaged data), OUT_OF_RANGE after the last slice,
   //         RESOURCE_EXHAUSTED (memory), and read errors of the system.
-  virtual absl::StatusOr<ImageSlice> NextSlice() = 0;
+  absl::StatusOr<ImageSlice> NextSlice();
+
+ protected:
+  explicit ImageSource(ImageInfo info) : info_(std::move(info)) {}
+
+  // The values of slice z, which comes after z - 1. May throw std::bad_alloc.
+  virtual absl::StatusOr<SliceValues> ReadSlice(int32_t z) = 0;
+
+  ImageInfo info_;
+
+ private:
+  int32_t next_z_ = 0;
 };
 
 }  // namespace bccskel

@@ -155,10 +155,6 @@ absl::StatusOr<std::unique_ptr<ImageSource>> OpenFile(std::shared_ptr<const Imag
   if (png) return OpenPng(std::move(file), options);
   BCCSKEL_ASSIGN_OR_RETURN(StoredImage image, npz ? ParseNpz(file, options.array, options.limits)
                                                   : ParseFront(front, file, options));
-  if (options.spacing.has_value()) {
-    BCCSKEL_ASSIGN_OR_RETURN(image.info.placement,
-                             WithSpacing(image.info.placement, *options.spacing));
-  }
   return OpenStoredImage(std::move(image), options.limits);
 }
 
@@ -192,13 +188,15 @@ absl::StatusOr<std::unique_ptr<ImageSource>> OpenFolder(const std::string& path,
 
 // Every error names the image, and no exception leaves.
 absl::StatusOr<std::unique_ptr<ImageSource>> OpenNamed(
-    const std::string& name,
+    const std::string& name, const ImageOptions& options,
     const std::function<absl::StatusOr<std::unique_ptr<ImageSource>>()>& open) {
   try {
     auto source = open();
-    if (source.ok()) return source;
-    return absl::Status(source.status().code(),
-                        absl::StrFormat("image '%s': %s", name, source.status().message()));
+    absl::Status status = source.status();
+    if (status.ok() && options.spacing.has_value())
+      status = (*source)->SetSpacing(*options.spacing);
+    if (status.ok()) return source;
+    return absl::Status(status.code(), absl::StrFormat("image '%s': %s", name, status.message()));
   } catch (const std::bad_alloc&) {
     return absl::ResourceExhaustedError(absl::StrFormat("image '%s': not enough memory", name));
   }
@@ -206,7 +204,7 @@ absl::StatusOr<std::unique_ptr<ImageSource>> OpenNamed(
 
 absl::StatusOr<std::unique_ptr<ImageSource>> OpenNamedFile(std::shared_ptr<const ImageFile> file,
                                                            const ImageOptions& options) {
-  return OpenNamed(file->name(), [&] { return OpenFile(file, options); });
+  return OpenNamed(file->name(), options, [&] { return OpenFile(file, options); });
 }
 
 // Whatever its name.
@@ -284,10 +282,10 @@ absl::Status CheckImageChoice(const std::string& path, const ImageOptions& optio
 absl::StatusOr<std::unique_ptr<ImageSource>> OpenImage(const std::string& path,
                                                        const ImageOptions& options) {
   if (IsFolder(path)) {
-    return OpenNamed(path, [&] { return OpenFolder(path, options); });
+    return OpenNamed(path, options, [&] { return OpenFolder(path, options); });
   }
   if (!options.raw.has_value() && IsDicomFile(path)) {
-    return OpenNamed(path, [&] { return OpenDicom(path, options); });
+    return OpenNamed(path, options, [&] { return OpenDicom(path, options); });
   }
   const std::optional<std::string> header =
       options.raw.has_value() ? std::nullopt : HeaderBeside(path);

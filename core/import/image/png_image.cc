@@ -6,7 +6,6 @@
 #include <bit>
 #include <csetjmp>
 #include <cstring>
-#include <new>
 #include <utility>
 
 #include "absl/strings/str_format.h"
@@ -146,25 +145,15 @@ absl::Status TakeGray(const std::byte* row, const PngLayout& layout, int32_t y,
 class PngSource : public ImageSource {
  public:
   PngSource(std::unique_ptr<PngClient> client, const PngLayout& layout, ImageInfo info)
-      : client_(std::move(client)), layout_(layout), info_(std::move(info)) {}
-
-  const ImageInfo& info() const override { return info_; }
-
-  absl::StatusOr<ImageSlice> NextSlice() override {
-    if (read_) return absl::OutOfRangeError("the image has 1 slice");
-    read_ = true;
-    const ImageSize& size = info_.size;
-    try {
-      slice_.Resize(info_.type, size.SliceVoxels());
-      BCCSKEL_RETURN_IF_ERROR(ReadRows());
-      return ImageSlice{.nx = size.nx, .ny = size.ny, .z = 0, .values = slice_.values()};
-    } catch (const std::bad_alloc&) {
-      return absl::ResourceExhaustedError(
-          absl::StrFormat("not enough memory for an image of %d x %d", size.nx, size.ny));
-    }
-  }
+      : ImageSource(std::move(info)), client_(std::move(client)), layout_(layout) {}
 
  private:
+  absl::StatusOr<SliceValues> ReadSlice(int32_t) override {
+    slice_.Resize(info_.type, info_.size.SliceVoxels());
+    BCCSKEL_RETURN_IF_ERROR(ReadRows());
+    return slice_.values();
+  }
+
   absl::Status ReadRows() {
     const bool interlaced = layout_.passes > 1;
     rows_.resize(layout_.row_bytes * (interlaced ? static_cast<size_t>(info_.size.ny) : 1));
@@ -192,10 +181,8 @@ class PngSource : public ImageSource {
 
   std::unique_ptr<PngClient> client_;
   PngLayout layout_;
-  ImageInfo info_;
   SliceBuffer slice_;
   exec::UninitializedVector<std::byte> rows_;
-  bool read_ = false;
 };
 
 }  // namespace
@@ -221,9 +208,6 @@ absl::StatusOr<std::unique_ptr<ImageSource>> OpenPng(std::shared_ptr<const Image
   BCCSKEL_RETURN_IF_ERROR(CheckLength(*client, info.size));
   BCCSKEL_ASSIGN_OR_RETURN(const PngLayout layout, LayoutOf(*client));
   info.type = layout.type;
-  if (options.spacing.has_value()) {
-    BCCSKEL_ASSIGN_OR_RETURN(info.placement, WithSpacing(info.placement, *options.spacing));
-  }
   return std::make_unique<PngSource>(std::move(client), layout, std::move(info));
 }
 

@@ -197,13 +197,13 @@ class PrecomputedStore : public ChunkStore {
   exec::UninitializedVector<std::byte> bytes_;
 };
 
-absl::StatusOr<Placement> PlacementOf(const Scale& scale, const ImageOptions& options) {
+absl::StatusOr<Placement> PlacementOf(const Scale& scale) {
   // Voxel n covers the places from n to n + 1 times the resolution.
   WorldPoint origin;
   for (size_t n = 0; n < 3; ++n) {
     origin[n] = (static_cast<double>(scale.offset[n]) + 0.5) * scale.resolution[n];
   }
-  return PlacementOfSpacing(options.spacing.value_or(scale.resolution), origin);
+  return PlacementOfSpacing(scale.resolution, origin);
 }
 
 }  // namespace
@@ -240,7 +240,7 @@ absl::StatusOr<std::unique_ptr<ImageSource>> OpenPrecomputed(const std::string& 
     return BadField(kType, name, "has no compressed segmentation; uint32 and uint64 have");
   }
   BCCSKEL_ASSIGN_OR_RETURN(const ImageSize size, SizeOfAxes(scale.size, options.limits));
-  BCCSKEL_ASSIGN_OR_RETURN(const Placement placement, PlacementOf(scale, options));
+  BCCSKEL_ASSIGN_OR_RETURN(const Placement placement, PlacementOf(scale));
   ChunkedImage image = {.info = {.format = "precomputed",
                                  .size = size,
                                  .placement = placement,

@@ -84,30 +84,23 @@ class SliceSeries : public ImageSource {
  public:
   SliceSeries(std::vector<std::string> names, Open open, std::unique_ptr<ImageSource> first,
               ImageInfo info)
-      : names_(std::move(names)),
+      : ImageSource(std::move(info)),
+        names_(std::move(names)),
         open_(std::move(open)),
-        slice_(std::move(first)),
-        info_(std::move(info)) {}
-
-  const ImageInfo& info() const override { return info_; }
-
-  absl::StatusOr<ImageSlice> NextSlice() override {
-    if (z_ >= info_.size.nz) {
-      return absl::OutOfRangeError(absl::StrFormat("the image has %d slices", info_.size.nz));
-    }
-    absl::StatusOr<ImageSlice> slice = Read(names_[static_cast<size_t>(z_)]);
-    if (!slice.ok()) {
-      return absl::Status(slice.status().code(),
-                          absl::StrFormat("slice '%s': %s", names_[static_cast<size_t>(z_)],
-                                          slice.status().message()));
-    }
-    slice->z = z_++;
-    return slice;
-  }
+        slice_(std::move(first)) {}
 
  private:
+  absl::StatusOr<SliceValues> ReadSlice(int32_t z) override {
+    const std::string& name = names_[static_cast<size_t>(z)];
+    if (z > 0) slice_ = nullptr;  // at most one file is open
+    const absl::StatusOr<ImageSlice> slice = Read(name);
+    if (slice.ok()) return slice->values;
+    return absl::Status(slice.status().code(),
+                        absl::StrFormat("slice '%s': %s", name, slice.status().message()));
+  }
+
   absl::StatusOr<ImageSlice> Read(const std::string& name) {
-    if (z_ > 0) {
+    if (slice_ == nullptr) {
       BCCSKEL_ASSIGN_OR_RETURN(slice_, open_(name));
     }
     const ImageInfo& info = slice_->info();
@@ -126,8 +119,6 @@ class SliceSeries : public ImageSource {
   std::vector<std::string> names_;
   Open open_;
   std::unique_ptr<ImageSource> slice_;
-  ImageInfo info_;
-  int32_t z_ = 0;
 };
 
 }  // namespace

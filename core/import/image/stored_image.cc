@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <new>
 #include <utility>
 
 #include "absl/strings/str_format.h"
@@ -60,29 +59,7 @@ absl::Status ReadWhole(ByteStream& stream, std::span<std::byte> into, int32_t sl
 class StoredSource : public ImageSource {
  public:
   StoredSource(StoredImage image, std::unique_ptr<ByteStream> stream)
-      : image_(std::move(image)), stream_(std::move(stream)) {}
-
-  const ImageInfo& info() const final { return image_.info; }
-
-  absl::StatusOr<ImageSlice> NextSlice() final {
-    const ImageSize& size = image_.info.size;
-    if (z_ >= size.nz) {
-      return absl::OutOfRangeError(absl::StrFormat("the image has %d slices", size.nz));
-    }
-    try {
-      buffer_.Resize(image_.stored_type, size.SliceVoxels());
-      BCCSKEL_RETURN_IF_ERROR(Fill(z_, buffer_.bytes()));
-      if (z_ + 1 == size.nz) BCCSKEL_RETURN_IF_ERROR(CheckEnd(image_, *stream_));
-      buffer_.SwapFrom(image_.byte_order);
-      const SliceValues values = image_.halves == StoredHalves::kYes ? buffer_.Halves()
-                                 : image_.Scaled() ? buffer_.Scaled(image_.slope, image_.intercept)
-                                                   : buffer_.values();
-      return ImageSlice{.nx = size.nx, .ny = size.ny, .z = z_++, .values = values};
-    } catch (const std::bad_alloc&) {
-      return absl::ResourceExhaustedError(
-          absl::StrFormat("not enough memory for a slice of %d x %d", size.nx, size.ny));
-    }
-  }
+      : ImageSource(image.info), image_(std::move(image)), stream_(std::move(stream)) {}
 
  protected:
   // Writes the bytes of slice z, which comes after z - 1.
@@ -92,8 +69,16 @@ class StoredSource : public ImageSource {
   std::unique_ptr<ByteStream> stream_;
 
  private:
+  absl::StatusOr<SliceValues> ReadSlice(int32_t z) final {
+    buffer_.Resize(image_.stored_type, info_.size.SliceVoxels());
+    BCCSKEL_RETURN_IF_ERROR(Fill(z, buffer_.bytes()));
+    if (z + 1 == info_.size.nz) BCCSKEL_RETURN_IF_ERROR(CheckEnd(image_, *stream_));
+    buffer_.SwapFrom(image_.byte_order);
+    if (image_.halves == StoredHalves::kYes) return buffer_.Halves();
+    return image_.Scaled() ? buffer_.Scaled(image_.slope, image_.intercept) : buffer_.values();
+  }
+
   SliceBuffer buffer_;
-  int32_t z_ = 0;
 };
 
 class XFastestSource : public StoredSource {
@@ -122,7 +107,7 @@ class ZFastestSource : public StoredSource {
   }
 
   absl::Status GatherSlab(int32_t z) {
-    const ImageSize& size = image_.info.size;
+    const ImageSize& size = info_.size;
     const uint64_t slice_bytes = size.SliceVoxels() * VoxelBytes(image_.stored_type);
     const uint64_t fitting = std::max<uint64_t>(1, max_slab_bytes_ / slice_bytes);
     if (z > 0) {
@@ -145,7 +130,7 @@ class ZFastestSource : public StoredSource {
 
   void ScatterColumn(size_t at) {
     const size_t bytes = VoxelBytes(image_.stored_type);
-    const size_t slice_bytes = image_.info.size.SliceVoxels() * bytes;
+    const size_t slice_bytes = info_.size.SliceVoxels() * bytes;
     const std::byte* from = column_.data() + static_cast<size_t>(first_) * bytes;
     std::byte* to = slab_.data() + at * bytes;
     for (int32_t n = 0; n < count_; ++n, from += bytes, to += slice_bytes) {

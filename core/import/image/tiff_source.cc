@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <new>
 #include <optional>
 #include <string>
 #include <utility>
@@ -145,34 +144,23 @@ class TiffSource : public ImageSource {
   // Needs: the client is at the stack's first page.
   TiffSource(std::unique_ptr<TiffClient> client, const Page& page, const TiffStack& stack,
              ImageInfo info)
-      : client_(std::move(client)),
+      : ImageSource(std::move(info)),
+        client_(std::move(client)),
         page_(page),
-        page_step_(stack.page_step),
-        info_(std::move(info)) {}
-
-  const ImageInfo& info() const override { return info_; }
-
-  absl::StatusOr<ImageSlice> NextSlice() override {
-    if (z_ >= info_.size.nz) {
-      return absl::OutOfRangeError(absl::StrFormat("the image has %d slices", info_.size.nz));
-    }
-    try {
-      BCCSKEL_RETURN_IF_ERROR(GoToPage());
-      slice_.Resize(page_.type, info_.size.SliceVoxels());
-      BCCSKEL_RETURN_IF_ERROR(TIFFIsTiled(tiff()) != 0 ? ReadTiles() : ReadStrips());
-      return ImageSlice{
-          .nx = info_.size.nx, .ny = info_.size.ny, .z = z_++, .values = slice_.values()};
-    } catch (const std::bad_alloc&) {
-      return absl::ResourceExhaustedError(
-          absl::StrFormat("not enough memory for a page of %d x %d", page_.width, page_.height));
-    }
-  }
+        page_step_(stack.page_step) {}
 
  private:
   TIFF* tiff() const { return client_->tiff(); }
 
-  absl::Status GoToPage() {
-    if (z_ == 0) return absl::OkStatus();
+  absl::StatusOr<SliceValues> ReadSlice(int32_t z) override {
+    z_ = z;
+    if (z > 0) BCCSKEL_RETURN_IF_ERROR(GoToNextPage());
+    slice_.Resize(page_.type, info_.size.SliceVoxels());
+    BCCSKEL_RETURN_IF_ERROR(TIFFIsTiled(tiff()) != 0 ? ReadTiles() : ReadStrips());
+    return slice_.values();
+  }
+
+  absl::Status GoToNextPage() {
     for (int64_t n = 0; n < page_step_; ++n) {
       if (TIFFReadDirectory(tiff()) == 1) continue;
       return client_->Error(absl::StrFormat("the page of slice %d cannot be read", z_));
@@ -257,10 +245,9 @@ class TiffSource : public ImageSource {
   std::unique_ptr<TiffClient> client_;
   Page page_;
   int64_t page_step_;
-  ImageInfo info_;
   SliceBuffer slice_;
   std::vector<std::byte> block_;
-  int32_t z_ = 0;
+  int32_t z_ = 0;  // of the page
 };
 
 }  // namespace
@@ -297,9 +284,6 @@ absl::StatusOr<std::unique_ptr<ImageSource>> OpenTiff(std::shared_ptr<const Imag
   BCCSKEL_ASSIGN_OR_RETURN(info.size, SizeOfAxes(lengths, limits));
   BCCSKEL_RETURN_IF_ERROR(CheckLength(tiff, page, client->file().size()));
   info.placement = placement;
-  if (options.spacing.has_value()) {
-    BCCSKEL_ASSIGN_OR_RETURN(info.placement, WithSpacing(info.placement, *options.spacing));
-  }
   return std::make_unique<TiffSource>(std::move(client), page, stack, std::move(info));
 }
 

@@ -162,10 +162,6 @@ absl::StatusOr<std::unique_ptr<ImageSource>> OpenArray(const std::string& folder
   image.fill = array.fill;
   BCCSKEL_ASSIGN_OR_RETURN(image.info.size, SizeOf(array, axes, options.limits));
   BCCSKEL_ASSIGN_OR_RETURN(image.info.placement, PlacementOf(level, axes));
-  if (options.spacing.has_value()) {
-    BCCSKEL_ASSIGN_OR_RETURN(image.info.placement,
-                             WithSpacing(image.info.placement, *options.spacing));
-  }
   for (size_t n = 0; n < 3; ++n) {
     if (axes.space[n].has_value()) image.chunk_size[n] = array.chunks[*axes.space[n]];
   }
