@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/exec/status_macros.h"
+#include "core/import/image/header_text.h"
 #include "core/import/image/image_headers.h"
 
 namespace bccskel {
@@ -66,6 +67,18 @@ absl::Status PlaceInFile(const ImageFront& front, std::string_view name,
   const uint64_t declared = image.VoxelBytesDeclared();
   image.stream_offset = image.file->size() - std::min(declared, image.file->size());
   return absl::OkStatus();
+}
+
+absl::Status PlaceDetached(const ImageFront& front, std::string_view name,
+                           std::string_view skip_field, std::string_view skip, Compression inner,
+                           StoredImage& image) {
+  if (name.starts_with("LIST") || name.find('%') != name.npos) {
+    return absl::UnimplementedError("voxels spread over several data files are not supported");
+  }
+  BCCSKEL_ASSIGN_OR_RETURN(const int64_t bytes, RequireNumber<int64_t>(skip_field, skip));
+  if (bytes < -1) return BadField(skip_field, skip, "is less than -1");
+  const auto behind = bytes < 0 ? std::nullopt : std::optional(static_cast<uint64_t>(bytes));
+  return PlaceInFile(front, name, behind, inner, image);
 }
 
 }  // namespace bccskel

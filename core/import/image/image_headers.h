@@ -4,6 +4,7 @@
 // The headers of all formats but TIFF; open_image.h chooses between them. README.md explains why
 // they are not left to libraries.
 
+#include <bit>
 #include <memory>
 #include <optional>
 #include <string>
@@ -41,6 +42,21 @@ absl::Status PlaceBehindHeader(const ImageFront& front, uint64_t header_bytes, C
 // Errors: as ImageFile::OpenBeside().
 absl::Status PlaceInFile(const ImageFront& front, std::string_view name,
                          std::optional<uint64_t> skip, Compression inner, StoredImage& image);
+
+// The same for a header that names the file and states, in the field `skip_field`, how many bytes
+// to skip; -1: the voxels are at the end. Errors: also UNIMPLEMENTED for several files;
+// INVALID_ARGUMENT for another `skip`.
+absl::Status PlaceDetached(const ImageFront& front, std::string_view name,
+                           std::string_view skip_field, std::string_view skip, Compression inner,
+                           StoredImage& image);
+
+// The type of a number by NumPy's name, such as "<u2"; nothing for what is not read.
+struct NumpyType {
+  VoxelType type = VoxelType::kUint8;
+  std::endian byte_order = std::endian::little;
+  StoredHalves halves = StoredHalves::kNo;
+};
+std::optional<NumpyType> NumpyTypeOf(std::string_view name);
 
 // Does the file begin as the format does?
 bool IsNifti(std::string_view front);

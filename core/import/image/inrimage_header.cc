@@ -16,18 +16,15 @@ constexpr std::string_view kEnd = "##}";
 absl::StatusOr<VoxelType> InrTypeOf(const HeaderFields& fields) {
   BCCSKEL_ASSIGN_OR_RETURN(const std::string_view kind, fields.Require({"TYPE"}));
   BCCSKEL_ASSIGN_OR_RETURN(const std::string_view bits, fields.Require({"PIXSIZE"}));
-  const std::string name = std::string(kind) + " " + std::string(bits);
-  if (name == "unsigned fixed 8 bits") return VoxelType::kUint8;
-  if (name == "unsigned fixed 16 bits") return VoxelType::kUint16;
-  if (name == "unsigned fixed 32 bits") return VoxelType::kUint32;
-  if (name == "unsigned fixed 64 bits") return VoxelType::kUint64;
-  if (name == "signed fixed 8 bits") return VoxelType::kInt8;
-  if (name == "signed fixed 16 bits") return VoxelType::kInt16;
-  if (name == "signed fixed 32 bits") return VoxelType::kInt32;
-  if (name == "signed fixed 64 bits") return VoxelType::kInt64;
-  if (name == "float 32 bits") return VoxelType::kFloat32;
-  if (name == "float 64 bits") return VoxelType::kFloat64;
-  return BadField("TYPE and PIXSIZE", name, "are not a type of numbers that is read");
+  const char letter = kind == "unsigned fixed" ? 'u'
+                      : kind == "signed fixed" ? 'i'
+                      : kind == "float"        ? 'f'
+                                               : '?';
+  const std::string_view number = bits.substr(0, bits.find(" bits"));
+  const auto type = ParseVoxelType(absl::StrFormat("%c%s", letter, std::string(number)));
+  if (type.ok() && bits.ends_with(" bits")) return *type;
+  return BadField("TYPE and PIXSIZE", std::string(kind) + " " + std::string(bits),
+                  "are not a type of numbers that is read");
 }
 
 absl::StatusOr<std::endian> InrByteOrderOf(const HeaderFields& fields, VoxelType type) {

@@ -1,5 +1,6 @@
 #include "core/import/image/json_metadata.h"
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -72,6 +73,12 @@ absl::StatusOr<std::vector<int64_t>> IntegersOf(std::string_view what, const Jso
 
 absl::StatusOr<std::vector<double>> NumbersOf(std::string_view what, const Json& value) {
   return ListOf<double>(what, value, &NumberOf);
+}
+
+bool IsBelowFolder(std::string_view path) {
+  const std::vector<std::string_view> parts = Words(path, "/");
+  return !path.empty() && path.front() != '/' && path.find('\0') == path.npos &&
+         std::ranges::find(parts, "..") == parts.end();
 }
 
 absl::Status BadValue(std::string_view what, const Json& value, std::string_view why) {

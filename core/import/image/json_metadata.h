@@ -31,6 +31,9 @@ absl::StatusOr<std::string> TextOf(std::string_view what, const nlohmann::json& 
 absl::StatusOr<std::vector<int64_t>> IntegersOf(std::string_view what, const nlohmann::json& value);
 absl::StatusOr<std::vector<double>> NumbersOf(std::string_view what, const nlohmann::json& value);
 
+// Whether a path that metadata name leads to something below their folder.
+bool IsBelowFolder(std::string_view path);
+
 // BadField() of a value of any type.
 absl::Status BadValue(std::string_view what, const nlohmann::json& value, std::string_view why);
 

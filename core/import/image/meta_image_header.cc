@@ -100,13 +100,6 @@ absl::StatusOr<Placement> MetaPlacementOf(const HeaderFields& fields, size_t dim
   return PlacementOfSteps(steps, origin, stated);
 }
 
-absl::StatusOr<std::optional<uint64_t>> SkipOf(const HeaderFields& fields) {
-  const std::string_view text = fields.Find({"HeaderSize"}).value_or("0");
-  BCCSKEL_ASSIGN_OR_RETURN(const int64_t skip, RequireNumber<int64_t>("HeaderSize", text));
-  if (skip < -1) return BadField("HeaderSize", text, "is less than -1");
-  return skip < 0 ? std::nullopt : std::optional(static_cast<uint64_t>(skip));
-}
-
 absl::Status PlaceMetaVoxels(const ImageFront& front, const HeaderFields& fields,
                              StoredImage& image) {
   BCCSKEL_ASSIGN_OR_RETURN(const size_t header_bytes, fields.Bytes());
@@ -114,11 +107,8 @@ absl::Status PlaceMetaVoxels(const ImageFront& front, const HeaderFields& fields
   const Compression inner = compressed ? Compression::kDeflate : Compression::kNone;
   BCCSKEL_ASSIGN_OR_RETURN(const std::string_view file, fields.Require({"ElementDataFile"}));
   if (LowerCase(file) == "local") return PlaceBehindHeader(front, header_bytes, inner, image);
-  if (file.starts_with("LIST") || file.find('%') != file.npos) {
-    return absl::UnimplementedError("voxels spread over several data files are not supported");
-  }
-  BCCSKEL_ASSIGN_OR_RETURN(const auto skip, SkipOf(fields));
-  return PlaceInFile(front, file, skip, inner, image);
+  const std::string_view skip = fields.Find({"HeaderSize"}).value_or("0");
+  return PlaceDetached(front, file, "HeaderSize", skip, inner, image);
 }
 
 HeaderLine ClassifyMetaLine(std::string_view line) {

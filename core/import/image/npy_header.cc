@@ -1,7 +1,6 @@
 // NumPy's .npy, and .npz, which is a zip archive of these. The header is a Python dictionary of
 // three entries; it is read, never run.
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,12 +27,6 @@ absl::StatusOr<std::string_view> ValueOf(std::string_view dictionary, std::strin
   return absl::InvalidArgumentError(absl::StrFormat("the header lacks '%s'", std::string(key)));
 }
 
-struct Elements {
-  VoxelType type;
-  std::endian order;
-  StoredHalves halves = StoredHalves::kNo;
-};
-
 absl::Status BadElements(std::string_view descr) {
   constexpr std::string_view kRecords = "[('";
   if (descr.starts_with(kRecords)) {
@@ -48,20 +41,12 @@ absl::Status BadElements(std::string_view descr) {
       std::string(descr.substr(0, descr.find(',')).substr(0, 80))));
 }
 
-absl::StatusOr<Elements> ElementsOf(std::string_view dictionary) {
+absl::StatusOr<NumpyType> ElementsOf(std::string_view dictionary) {
   BCCSKEL_ASSIGN_OR_RETURN(const std::string_view descr, ValueOf(dictionary, "descr"));
   if (descr.size() < 5 || descr[0] != '\'' || descr[4] != '\'') return BadElements(descr);
-  const std::endian order = descr[1] == '>' ? std::endian::big : std::endian::little;
-  const std::string_view name = descr.substr(2, 2);
-  if (descr[1] != '<' && descr[1] != '>' && descr[1] != '|') return BadElements(descr);
-  if (name == "b1") return Elements{VoxelType::kUint8, order};
-  if (name == "f2") return Elements{VoxelType::kUint16, order, StoredHalves::kYes};
-  const std::optional<int> bytes = ParseNumber<int>(name.substr(1));
-  if (!bytes.has_value()) return BadElements(descr);
-  const std::string short_name = absl::StrFormat("%c%d", name[0], 8 * *bytes);
-  const absl::StatusOr<VoxelType> type = ParseVoxelType(short_name);
-  if (!type.ok()) return BadElements(descr);
-  return Elements{*type, order};
+  const std::optional<NumpyType> type = NumpyTypeOf(descr.substr(1, 3));
+  if (!type.has_value()) return BadElements(descr);
+  return *type;
 }
 
 absl::StatusOr<VoxelOrder> VoxelOrderOf(std::string_view dictionary) {
@@ -152,16 +137,33 @@ absl::StatusOr<uint64_t> ChosenArray(const std::vector<std::string>& members,
 
 }  // namespace
 
+std::optional<NumpyType> NumpyTypeOf(std::string_view name) {
+  if (name.size() != 3 || std::string_view("<>|").find(name[0]) == name.npos) return std::nullopt;
+  const std::string_view kind = name.substr(1);
+  NumpyType number = {.byte_order = name[0] == '>' ? std::endian::big : std::endian::little};
+  if (kind == "f2") {
+    number.type = VoxelType::kUint16;
+    number.halves = StoredHalves::kYes;
+  } else if (kind != "b1") {
+    const auto type = ParseVoxelType(absl::StrFormat("%c%d", kind[0], 8 * (kind[1] - '0')));
+    if (!type.ok()) return std::nullopt;
+    number.type = *type;
+  }
+  // A bar stands for no order, which only single bytes do without.
+  if (name[0] == '|' && kind[1] != '1') return std::nullopt;
+  return number;
+}
+
 bool IsNpy(std::string_view front) { return front.starts_with(kNpyMagic); }
 
 absl::StatusOr<StoredImage> ParseNpy(const ImageFront& front, const ImageLimits& limits) {
   BCCSKEL_ASSIGN_OR_RETURN(const Header header, HeaderOf(front.bytes));
   StoredImage image;
   image.info.format = "npy";
-  BCCSKEL_ASSIGN_OR_RETURN(const Elements elements, ElementsOf(header.dictionary));
+  BCCSKEL_ASSIGN_OR_RETURN(const NumpyType elements, ElementsOf(header.dictionary));
   image.stored_type = elements.type;
   image.halves = elements.halves;
-  image.byte_order = elements.order;
+  image.byte_order = elements.byte_order;
   BCCSKEL_ASSIGN_OR_RETURN(image.voxel_order, VoxelOrderOf(header.dictionary));
   BCCSKEL_ASSIGN_OR_RETURN(std::vector<int64_t> shape, ShapeOf(header.dictionary));
   BCCSKEL_ASSIGN_OR_RETURN(image.info.size, SizeOfAxes(NpyAxesOf(std::move(shape)), limits));

@@ -230,29 +230,18 @@ HeaderLine ClassifyNrrdLine(std::string_view line) {
   return ignored ? HeaderLine::kIgnored : HeaderLine::kField;
 }
 
-absl::Status PlaceDetached(const ImageFront& front, const HeaderFields& fields,
-                           std::string_view name, Compression compression, StoredImage& image) {
-  if (name.starts_with("LIST") || name.find('%') != name.npos) {
-    return absl::UnimplementedError("voxels spread over several data files are not supported");
-  }
-  const std::string_view text = fields.Find({"byte skip", "byteskip"}).value_or("0");
-  BCCSKEL_ASSIGN_OR_RETURN(const int64_t skip, RequireNumber<int64_t>("byte skip", text));
-  if (skip < -1) return BadField("byte skip", text, "is less than -1");
-  const auto behind = skip < 0 ? std::nullopt : std::optional(static_cast<uint64_t>(skip));
-  return PlaceInFile(front, name, behind, compression, image);
-}
-
 absl::Status PlaceNrrdVoxels(const ImageFront& front, const HeaderFields& fields,
                              StoredImage& image) {
   BCCSKEL_ASSIGN_OR_RETURN(const Compression compression, NrrdCompressionOf(fields));
   if (fields.Find({"line skip", "lineskip"}).value_or("0") != "0") {
     return absl::UnimplementedError("the field 'line skip' is not supported");
   }
+  const std::string_view skip = fields.Find({"byte skip", "byteskip"}).value_or("0");
   if (const auto name = fields.Find({"data file", "datafile"}); name.has_value()) {
-    return PlaceDetached(front, fields, *name, compression, image);
+    return PlaceDetached(front, *name, "byte skip", skip, compression, image);
   }
   BCCSKEL_ASSIGN_OR_RETURN(const size_t header_bytes, fields.Bytes());
-  if (fields.Find({"byte skip", "byteskip"}).value_or("0") != "0") {
+  if (skip != "0") {
     return absl::UnimplementedError("the field 'byte skip' is read for data files only");
   }
   return PlaceBehindHeader(front, header_bytes, compression, image);

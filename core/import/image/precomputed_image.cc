@@ -62,12 +62,6 @@ absl::Status CheckBox(const char* what, const ChunkIndex& box, uint64_t most) {
       "%s of %d x %d x %d is over the limit of %d voxels", what, box[0], box[1], box[2], most));
 }
 
-absl::Status CheckKey(const std::string& key) {
-  bool inside = !key.empty() && key.front() != '/' && key.find('\0') == key.npos;
-  for (const std::string_view part : Words(key, "/")) inside = inside && part != "..";
-  return inside ? absl::OkStatus() : BadField("key", key, "is not that of a folder in this one");
-}
-
 absl::Status ReadEncoding(const Json& level, Scale& scale) {
   const Json& encoding = MemberOf(level, "encoding");
   if (encoding == "raw") return absl::OkStatus();
@@ -88,7 +82,9 @@ absl::StatusOr<Scale> ReadScale(const Json& level, uint64_t max_chunk_voxels) {
   }
   Scale scale;
   BCCSKEL_ASSIGN_OR_RETURN(scale.key, TextOf("key", MemberOf(level, "key")));
-  BCCSKEL_RETURN_IF_ERROR(CheckKey(scale.key));
+  if (!IsBelowFolder(scale.key)) {
+    return BadField("key", scale.key, "is not that of a folder in this one");
+  }
   BCCSKEL_ASSIGN_OR_RETURN(scale.size, Integers("size", MemberOf(level, "size")));
   const Json& offset = MemberOf(level, "voxel_offset");
   scale.offset = {0, 0, 0};

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
 #include "core/import/image/header_text.h"
+#include "core/import/image/image_headers.h"
 #include "core/import/image/json_metadata.h"
 #include "core/import/image/zarr_metadata.h"
 
@@ -24,31 +26,14 @@ absl::Status ReadType(const Json& dtype, ZarrArray& array) {
     return absl::UnimplementedError("dtype is not one number: records are not supported");
   }
   const auto name = dtype.get<std::string>();
-  const std::string_view kind = std::string_view(name).substr(std::min<size_t>(1, name.size()));
-  constexpr std::array<std::pair<std::string_view, VoxelType>, 12> kTypes = {{
-      {"b1", VoxelType::kUint8},
-      {"u1", VoxelType::kUint8},
-      {"i1", VoxelType::kInt8},
-      {"u2", VoxelType::kUint16},
-      {"i2", VoxelType::kInt16},
-      {"u4", VoxelType::kUint32},
-      {"i4", VoxelType::kInt32},
-      {"u8", VoxelType::kUint64},
-      {"i8", VoxelType::kInt64},
-      {"f2", VoxelType::kUint16},
-      {"f4", VoxelType::kFloat32},
-      {"f8", VoxelType::kFloat64},
-  }};
-  const auto* const known =
-      std::ranges::find(kTypes, kind, [](const auto& type) { return type.first; });
-  const bool ordered = name.starts_with('<') || name.starts_with('>') || name.starts_with('|');
-  if (known == kTypes.end() || !ordered || (name[0] == '|' && kind[1] != '1')) {
+  const std::optional<NumpyType> type = NumpyTypeOf(name);
+  if (!type.has_value()) {
     return BadField("dtype", name,
                     "is not a type that is read: bool, integers, float16, float32, float64");
   }
-  array.type = known->second;
-  array.halves = kind == "f2" ? StoredHalves::kYes : StoredHalves::kNo;
-  array.byte_order = name[0] == '>' ? std::endian::big : std::endian::little;
+  array.type = type->type;
+  array.halves = type->halves;
+  array.byte_order = type->byte_order;
   return absl::OkStatus();
 }
 

@@ -92,14 +92,6 @@ absl::Status Apply(const Json& transformations, ZarrLevel& level) {
   return absl::OkStatus();
 }
 
-// A group can name nothing outside its folder.
-absl::Status CheckPath(const std::string& path) {
-  bool inside = !path.empty() && path.front() != '/' && path.find('\0') == path.npos;
-  for (const std::string_view part : Words(path, "/")) inside = inside && part != "..";
-  return inside ? absl::OkStatus()
-                : BadField("path", path, "is not that of an array in the folder");
-}
-
 }  // namespace
 
 absl::StatusOr<ZarrLevel> ParseMultiscales(const Json& attributes, const ImageOptions& options) {
@@ -125,7 +117,9 @@ absl::StatusOr<ZarrLevel> ParseMultiscales(const Json& attributes, const ImageOp
   const Json& dataset = datasets[static_cast<size_t>(chosen)];
   ZarrLevel level;
   BCCSKEL_ASSIGN_OR_RETURN(level.path, TextOf("path", MemberOf(dataset, "path")));
-  BCCSKEL_RETURN_IF_ERROR(CheckPath(level.path));
+  if (!IsBelowFolder(level.path)) {
+    return BadField("path", level.path, "is not that of an array in the folder");
+  }
   BCCSKEL_RETURN_IF_ERROR(ReadAxes(MemberOf(image, "axes"), level));
   level.scale.assign(level.axes.size(), 1);
   level.translation.assign(level.axes.size(), 0);
