@@ -2,7 +2,6 @@
 // (NIFTI_INTENT_TRIANGLE). Coordinates stay as stored: the CoordinateSystemTransformMatrix, which
 // leads to another space, is not applied.
 
-#include <array>
 #include <bit>
 #include <cstdint>
 #include <string>
@@ -20,28 +19,16 @@
 namespace bccskel {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Scalar>, 10> kGiftiTypes = {{
-    {"NIFTI_TYPE_INT8", Scalar::kInt8},
-    {"NIFTI_TYPE_UINT8", Scalar::kUint8},
-    {"NIFTI_TYPE_INT16", Scalar::kInt16},
-    {"NIFTI_TYPE_UINT16", Scalar::kUint16},
-    {"NIFTI_TYPE_INT32", Scalar::kInt32},
-    {"NIFTI_TYPE_UINT32", Scalar::kUint32},
-    {"NIFTI_TYPE_INT64", Scalar::kInt64},
-    {"NIFTI_TYPE_UINT64", Scalar::kUint64},
-    {"NIFTI_TYPE_FLOAT32", Scalar::kFloat32},
-    {"NIFTI_TYPE_FLOAT64", Scalar::kFloat64},
-}};
-
 absl::Status GiftiError(const char* attribute, std::string_view found, std::string_view known) {
   return absl::InvalidArgumentError(absl::StrFormat("GIFTI: %s '%s' is not read, only %s",
                                                     attribute, found.substr(0, 40), known));
 }
 
 absl::StatusOr<Scalar> GiftiTypeOf(const pugi::xml_node& array) {
+  constexpr std::string_view kFront = "NIFTI_TYPE_";
   const std::string_view name = XmlAttribute(array, "DataType");
-  for (const auto& [known, type] : kGiftiTypes) {
-    if (known == name) return type;
+  if (name.starts_with(kFront)) {
+    if (const auto type = ScalarNamed(name.substr(kFront.size())); type) return *type;
   }
   return GiftiError("DataType", name, "integers and floats such as NIFTI_TYPE_FLOAT32");
 }

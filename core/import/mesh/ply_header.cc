@@ -10,23 +10,16 @@
 namespace bccskel {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Scalar>, 16> kTypeNames = {{
+// Beside the names of ScalarNamed().
+constexpr std::array<std::pair<std::string_view, Scalar>, 8> kTypeNames = {{
     {"char", Scalar::kInt8},
-    {"int8", Scalar::kInt8},
     {"uchar", Scalar::kUint8},
-    {"uint8", Scalar::kUint8},
     {"short", Scalar::kInt16},
-    {"int16", Scalar::kInt16},
     {"ushort", Scalar::kUint16},
-    {"uint16", Scalar::kUint16},
     {"int", Scalar::kInt32},
-    {"int32", Scalar::kInt32},
     {"uint", Scalar::kUint32},
-    {"uint32", Scalar::kUint32},
     {"float", Scalar::kFloat32},
-    {"float32", Scalar::kFloat32},
     {"double", Scalar::kFloat64},
-    {"float64", Scalar::kFloat64},
 }};
 
 absl::Status HeaderError(std::string_view what, std::string_view found) {
@@ -38,6 +31,7 @@ absl::StatusOr<Scalar> ParseType(std::string_view name) {
   for (const auto& [known, type] : kTypeNames) {
     if (known == name) return type;
   }
+  if (const std::optional<Scalar> type = ScalarNamed(name); type) return *type;
   return HeaderError("expected a type of a property", name);
 }
 

@@ -3,7 +3,19 @@
 #include <array>
 #include <cstdint>
 
+#include "core/import/mesh/text_scanner.h"
+
 namespace bccskel {
+
+std::optional<Scalar> ScalarNamed(std::string_view name) {
+  constexpr std::array<std::string_view, 10> kNames = {"int8",    "uint8",  "int16", "uint16",
+                                                       "int32",   "uint32", "int64", "uint64",
+                                                       "float32", "float64"};
+  for (size_t n = 0; n < kNames.size(); ++n) {
+    if (EqualsIgnoringCase(kNames[n], name)) return static_cast<Scalar>(n);
+  }
+  return std::nullopt;
+}
 
 size_t ScalarBytes(Scalar type) {
   constexpr std::array<size_t, 10> kBytes = {1, 1, 2, 2, 4, 4, 8, 8, 4, 8};

@@ -3,6 +3,8 @@
 
 #include <bit>
 #include <cstddef>
+#include <optional>
+#include <string_view>
 
 namespace bccskel {
 
@@ -20,6 +22,8 @@ enum class Scalar {
   kFloat64
 };
 
+// The type with a name such as uint8 or Float32, in letters of any size; nothing for another name.
+std::optional<Scalar> ScalarNamed(std::string_view name);
 size_t ScalarBytes(Scalar type);
 inline bool IsFloat(Scalar type) { return type >= Scalar::kFloat32; }
 

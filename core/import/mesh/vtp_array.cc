@@ -1,6 +1,5 @@
 #include "core/import/mesh/vtp_array.h"
 
-#include <array>
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,23 +13,8 @@
 namespace bccskel {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Scalar>, 10> kVtpTypes = {{
-    {"Int8", Scalar::kInt8},
-    {"UInt8", Scalar::kUint8},
-    {"Int16", Scalar::kInt16},
-    {"UInt16", Scalar::kUint16},
-    {"Int32", Scalar::kInt32},
-    {"UInt32", Scalar::kUint32},
-    {"Int64", Scalar::kInt64},
-    {"UInt64", Scalar::kUint64},
-    {"Float32", Scalar::kFloat32},
-    {"Float64", Scalar::kFloat64},
-}};
-
 absl::StatusOr<Scalar> VtpTypeOf(std::string_view name) {
-  for (const auto& [known, type] : kVtpTypes) {
-    if (known == name) return type;
-  }
+  if (const std::optional<Scalar> type = ScalarNamed(name); type) return *type;
   return absl::InvalidArgumentError(
       absl::StrFormat("VTP: '%s' is no type of numbers such as Float32 or Int64", name));
 }
