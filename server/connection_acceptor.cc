@@ -43,15 +43,15 @@ absl::Status CannotListen(const std::string& address, const std::string& why) {
 }
 
 // Errors: INVALID_ARGUMENT with the system's reason.
-absl::StatusOr<Descriptor> ListenTo(const sockaddr* name, socklen_t size,
-                                    const std::string& address) {
+absl::StatusOr<exec::Descriptor> ListenTo(const sockaddr* name, socklen_t size,
+                                          const std::string& address) {
   constexpr int kOn = 1;
-  Descriptor listener(socket(name->sa_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  exec::Descriptor listener(socket(name->sa_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   // Lets a restarted server bind while connections of the previous one linger for a minute.
   if (name->sa_family != AF_UNIX) {
     setsockopt(listener.get(), SOL_SOCKET, SO_REUSEADDR, &kOn, sizeof(kOn));
   }
-  if (!listener.valid() || bind(listener.get(), name, size) != 0 ||
+  if (!listener.is_open() || bind(listener.get(), name, size) != 0 ||
       listen(listener.get(), SOMAXCONN) != 0) {
     return CannotListen(address, std::strerror(errno));
   }
@@ -69,7 +69,7 @@ absl::Status RemoveSocket(const std::string& path) {
   return absl::OkStatus();
 }
 
-int PortOf(const Descriptor& listener) {
+int PortOf(const exec::Descriptor& listener) {
   sockaddr_storage name = {};
   socklen_t size = sizeof(name);
   if (getsockname(listener.get(), reinterpret_cast<sockaddr*>(&name), &size) != 0) return 0;
@@ -106,8 +106,8 @@ absl::StatusOr<Addresses> Resolve(const std::string& address) {
 absl::StatusOr<SocketLock> SocketLock::Take(const std::string& socket_path) {
   const std::string path = socket_path + ".lock";
   while (true) {
-    Descriptor file(open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, kOwnerOnly));
-    if (!file.valid()) {
+    exec::Descriptor file(open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, kOwnerOnly));
+    if (!file.is_open()) {
       return absl::InvalidArgumentError(
           absl::StrCat("cannot make ", path, ": ", std::strerror(errno)));
     }
@@ -121,13 +121,13 @@ absl::StatusOr<SocketLock> SocketLock::Take(const std::string& socket_path) {
 
 SocketLock::~SocketLock() {
   // Before releasing the lock: afterwards the file may belong to another server.
-  if (file_.valid()) unlink(path_.c_str());
+  if (file_.is_open()) unlink(path_.c_str());
 }
 
 absl::StatusOr<std::unique_ptr<ConnectionAcceptor>> ConnectionAcceptor::Listen(
     const std::string& address) {
   std::unique_ptr<ConnectionAcceptor> acceptor(new ConnectionAcceptor);
-  acceptor->stop_ = Descriptor(eventfd(0, EFD_CLOEXEC));
+  acceptor->stop_ = exec::Descriptor(eventfd(0, EFD_CLOEXEC));
   const std::string path = SocketPathOf(address);
   BCCSKEL_RETURN_IF_ERROR(path.empty() ? acceptor->ListenToHost(address)
                                        : acceptor->ListenToPath(path));
@@ -165,8 +165,9 @@ absl::Status ConnectionAcceptor::ListenToPath(const std::string& path) {
   }
   path.copy(name.sun_path, path.size());
   BCCSKEL_RETURN_IF_ERROR(RemoveSocket(path));
-  BCCSKEL_ASSIGN_OR_RETURN(Descriptor listener, ListenTo(reinterpret_cast<const sockaddr*>(&name),
-                                                         sizeof(name), "unix:" + path));
+  BCCSKEL_ASSIGN_OR_RETURN(
+      exec::Descriptor listener,
+      ListenTo(reinterpret_cast<const sockaddr*>(&name), sizeof(name), "unix:" + path));
   listeners_.push_back(std::move(listener));
   path_ = path;
   return absl::OkStatus();
@@ -188,7 +189,7 @@ void ConnectionAcceptor::Stop() {
 
 void ConnectionAcceptor::Serve() {
   std::vector<pollfd> events = {{stop_.get(), POLLIN, 0}};
-  for (const Descriptor& listener : listeners_) events.push_back({listener.get(), POLLIN, 0});
+  for (const exec::Descriptor& listener : listeners_) events.push_back({listener.get(), POLLIN, 0});
   absl::Status seen;
   while (true) {
     absl::Status now;

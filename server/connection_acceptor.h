@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
-#include "server/decoding/shared_bytes.h"
+#include "core/exec/descriptor.h"
 
 namespace bccskel::server {
 
@@ -28,10 +28,11 @@ class SocketLock {
   SocketLock& operator=(SocketLock&&) = delete;
 
  private:
-  SocketLock(std::string path, Descriptor file) : path_(std::move(path)), file_(std::move(file)) {}
+  SocketLock(std::string path, exec::Descriptor file)
+      : path_(std::move(path)), file_(std::move(file)) {}
 
   std::string path_;
-  Descriptor file_;
+  exec::Descriptor file_;
 };
 
 // Listens at one address and passes on its connections. gRPC 1.51 could do that itself, but it
@@ -68,8 +69,8 @@ class ConnectionAcceptor {
 
   std::string address_;
   std::string path_;  // of a Unix socket
-  std::vector<Descriptor> listeners_;
-  Descriptor stop_;  // an eventfd
+  std::vector<exec::Descriptor> listeners_;
+  exec::Descriptor stop_;  // an eventfd
   Take take_;
   std::jthread thread_;
 };

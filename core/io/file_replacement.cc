@@ -56,8 +56,8 @@ std::string DraftOf(const std::string& place) {
 
 }  // namespace
 
-FileReplacement::FileReplacement(std::string place, std::string draft, int descriptor)
-    : place_(std::move(place)), draft_(std::move(draft)), descriptor_(descriptor) {}
+FileReplacement::FileReplacement(std::string place, std::string draft, exec::Descriptor descriptor)
+    : place_(std::move(place)), draft_(std::move(draft)), descriptor_(std::move(descriptor)) {}
 
 absl::StatusOr<std::unique_ptr<FileReplacement>> FileReplacement::Begin(const std::string& path) {
   if (IsFolder(path)) return SystemStatus(EISDIR);
@@ -65,11 +65,11 @@ absl::StatusOr<std::unique_ptr<FileReplacement>> FileReplacement::Begin(const st
   const std::string place = special ? path : BehindLinks(path);
   const std::string draft = special ? std::string() : DraftOf(place);
   // mkstemp() would ignore the umask.
-  const int descriptor = special
-                             ? ::open(path.c_str(), O_WRONLY | O_CLOEXEC)
-                             : ::open(draft.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (descriptor < 0) return CreationStatus(errno, path);
-  return std::unique_ptr<FileReplacement>(new FileReplacement(place, draft, descriptor));
+  exec::Descriptor file(special
+                            ? ::open(path.c_str(), O_WRONLY | O_CLOEXEC)
+                            : ::open(draft.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+  if (!file.is_open()) return CreationStatus(errno, path);
+  return std::unique_ptr<FileReplacement>(new FileReplacement(place, draft, std::move(file)));
 }
 
 absl::Status FileReplacement::Check(const std::string& path) {
@@ -79,16 +79,15 @@ absl::Status FileReplacement::Check(const std::string& path) {
 }
 
 FileReplacement::~FileReplacement() {
-  if (descriptor_ >= 0) ::close(descriptor_);
   if (!draft_.empty()) ::unlink(draft_.c_str());
 }
 
 absl::Status FileReplacement::WriteAt(uint64_t offset, std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
     const bool in_order = offset == end_;  // as pipes take them
-    const ssize_t count =
-        in_order ? ::write(descriptor_, bytes.data(), bytes.size())
-                 : ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    const ssize_t count = in_order ? ::write(descriptor_.get(), bytes.data(), bytes.size())
+                                   : ::pwrite(descriptor_.get(), bytes.data(), bytes.size(),
+                                              static_cast<off_t>(offset));
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) return SystemStatus(errno);
     offset += static_cast<uint64_t>(count);
@@ -99,9 +98,9 @@ absl::Status FileReplacement::WriteAt(uint64_t offset, std::span<const std::byte
 }
 
 absl::Status FileReplacement::Commit(const std::stop_token& stop) {
-  const bool synced = draft_.empty() || ::fsync(descriptor_) == 0;
+  const bool synced = draft_.empty() || ::fsync(descriptor_.get()) == 0;
   // Some file systems report a full disk only here.
-  if (!synced || ::close(std::exchange(descriptor_, -1)) != 0) return SystemStatus(errno);
+  if (!synced || !descriptor_.Close()) return SystemStatus(errno);
   if (stop.stop_requested()) return absl::CancelledError("not written");
   if (draft_.empty()) return absl::OkStatus();
   if (std::rename(draft_.c_str(), place_.c_str()) != 0) return SystemStatus(errno);

@@ -10,6 +10,7 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "core/exec/descriptor.h"
 #include "core/io/byte_sink.h"
 
 namespace bccskel {
@@ -33,12 +34,12 @@ class FileReplacement final : public ByteSink {
   absl::Status Commit(const std::stop_token& stop = {});
 
  private:
-  FileReplacement(std::string place, std::string draft, int descriptor);
+  FileReplacement(std::string place, std::string draft, exec::Descriptor descriptor);
 
   const std::string place_;
   std::string draft_;  // empty: none
-  int descriptor_;     // -1 once closed
-  uint64_t end_ = 0;   // of what was written in order
+  exec::Descriptor descriptor_;
+  uint64_t end_ = 0;  // of what was written in order
 };
 
 }  // namespace bccskel

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "absl/strings/str_format.h"
+#include "core/exec/descriptor.h"
 #include "core/exec/status_macros.h"
 #include "core/exec/worker_team.h"
 #include "core/io/brick_collector.h"
@@ -32,23 +33,8 @@ absl::Status InFile(const std::string& path, const absl::Status& status) {
   return absl::Status(status.code(), absl::StrFormat("%s: %s", path, status.message()));
 }
 
-class FileDescriptor {
- public:
-  explicit FileDescriptor(int descriptor) : descriptor_(descriptor) {}
-  FileDescriptor(const FileDescriptor&) = delete;
-  FileDescriptor& operator=(const FileDescriptor&) = delete;
-  ~FileDescriptor() {
-    if (descriptor_ >= 0) close(descriptor_);
-  }
-  int get() const { return descriptor_; }
-  bool is_open() const { return descriptor_ >= 0; }
-
- private:
-  int descriptor_;
-};
-
 // Reads until `buffer` is full or the file ends.
-absl::StatusOr<std::span<const std::byte>> ReadSome(const FileDescriptor& file,
+absl::StatusOr<std::span<const std::byte>> ReadSome(const exec::Descriptor& file,
                                                     std::span<std::byte> buffer) {
   size_t filled = 0;
   while (filled < buffer.size()) {
@@ -86,7 +72,7 @@ absl::StatusOr<EncodeVolumeOptions> EncodingFor(const std::string& path,
 }
 
 // The share of the records that lie at their places in the file.
-absl::StatusOr<Volume> ReadRecords(const FileDescriptor& file, const VolumeHeader& header,
+absl::StatusOr<Volume> ReadRecords(const exec::Descriptor& file, const VolumeHeader& header,
                                    const LayerPart& share, const exec::Context& context) {
   struct stat status = {};
   if (fstat(file.get(), &status) != 0) return SystemError("cannot read");
@@ -115,7 +101,7 @@ absl::StatusOr<Volume> ReadRecords(const FileDescriptor& file, const VolumeHeade
   return std::move(collector).Build();
 }
 
-absl::StatusOr<Volume> DecodeFile(const FileDescriptor& file, const LayerPart& share,
+absl::StatusOr<Volume> DecodeFile(const exec::Descriptor& file, const LayerPart& share,
                                   const VolumeLimits& limits, const exec::Context& context) {
   std::vector<std::byte> buffer(kReadBytes);
   BCCSKEL_ASSIGN_OR_RETURN(std::span<const std::byte> part, ReadSome(file, buffer));
@@ -156,7 +142,7 @@ absl::StatusOr<Volume> ReadVolumeFile(const std::string& path, const VolumeLimit
 
 absl::StatusOr<Volume> ReadVolumePart(const std::string& path, const LayerPart& part,
                                       const VolumeLimits& limits, const exec::Context& context) {
-  const FileDescriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  const exec::Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (!file.is_open()) return InFile(path, SystemError("cannot open"));
   absl::StatusOr<Volume> volume = DecodeFile(file, part, limits, context);
   if (!volume.ok()) return InFile(path, volume.status());

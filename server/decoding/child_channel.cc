@@ -74,14 +74,14 @@ absl::Status ChildChannel::SendRequest(const DecodeRequest& request, int descrip
   return sent == static_cast<ssize_t>(sizeof(request)) ? absl::OkStatus() : Gone();
 }
 
-absl::Status ChildChannel::ReceiveRequest(DecodeRequest& request, Descriptor& descriptor) {
+absl::Status ChildChannel::ReceiveRequest(DecodeRequest& request, exec::Descriptor& descriptor) {
   RequestMessage message(request);
   const ssize_t received = recvmsg(socket_.get(), &message.header, MSG_WAITALL | MSG_CMSG_CLOEXEC);
   const cmsghdr* const control = CMSG_FIRSTHDR(&message.header);
   if (received != static_cast<ssize_t>(sizeof(request)) || control == nullptr) return Gone();
   int number = -1;
   std::memcpy(&number, CMSG_DATA(control), sizeof(number));
-  descriptor = Descriptor(number);
+  descriptor = exec::Descriptor(number);
   return absl::OkStatus();
 }
 

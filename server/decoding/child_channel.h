@@ -9,8 +9,8 @@
 #include <type_traits>
 
 #include "absl/status/status.h"
+#include "core/exec/descriptor.h"
 #include "core/io/volume_header.h"
-#include "server/decoding/shared_bytes.h"
 
 namespace bccskel::server {
 
@@ -44,7 +44,7 @@ static_assert(std::is_trivially_copyable_v<DecodeRequest>);
 // One end of the channel. Threads: one at a time.
 class ChildChannel {
  public:
-  explicit ChildChannel(Descriptor socket) : socket_(std::move(socket)) {}
+  explicit ChildChannel(exec::Descriptor socket) : socket_(std::move(socket)) {}
 
   // Called at least every 20 ms while waiting for the other end; an error ends the wait.
   using KeepWaiting = std::function<absl::Status()>;
@@ -63,12 +63,12 @@ class ChildChannel {
   }
   // The same, with a descriptor attached.
   absl::Status SendRequest(const DecodeRequest& request, int descriptor);
-  absl::Status ReceiveRequest(DecodeRequest& request, Descriptor& descriptor);
+  absl::Status ReceiveRequest(DecodeRequest& request, exec::Descriptor& descriptor);
 
  private:
   absl::Status WaitFor(short events, const KeepWaiting& keep_waiting) const;
 
-  Descriptor socket_;
+  exec::Descriptor socket_;
 };
 
 }  // namespace bccskel::server

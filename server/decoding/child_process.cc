@@ -167,8 +167,8 @@ absl::StatusOr<std::unique_ptr<ChildProcess>> ChildProcess::Start(
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
     return NoDecoder("no channel to a decoder", errno);
   }
-  Descriptor ours(ends[0]);
-  const Descriptor theirs(ends[1]);
+  exec::Descriptor ours(ends[0]);
+  const exec::Descriptor theirs(ends[1]);
   pid_t pid = 0;
   if (const int error = SpawnPlan(theirs.get()).Spawn(command, pid); error != 0) {
     return NoDecoder("no decoder can be started", error);

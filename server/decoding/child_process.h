@@ -48,7 +48,7 @@ class ChildProcess {
   pid_t pid() const { return pid_; }
 
  private:
-  ChildProcess(pid_t pid, Descriptor channel) : pid_(pid), channel_(std::move(channel)) {}
+  ChildProcess(pid_t pid, exec::Descriptor channel) : pid_(pid), channel_(std::move(channel)) {}
 
   absl::Status BecomeReady(const ChildChannel::KeepWaiting& keep_waiting);
   absl::Status HandOver(const SharedBytes& bytes, const DecodingBudget& budget,

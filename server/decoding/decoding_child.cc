@@ -74,7 +74,7 @@ void ConfigureAllocator() {
 }
 
 // Yields the bricks encoding, which the server decodes with all its checks.
-absl::StatusOr<std::string> Decode(const DecodeRequest& request, const Descriptor& file) {
+absl::StatusOr<std::string> Decode(const DecodeRequest& request, const exec::Descriptor& file) {
   BCCSKEL_ASSIGN_OR_RETURN(const MappedBytes mapped,
                            MappedBytes::Map(file.get(), request.encoded_bytes));
   BCCSKEL_ASSIGN_OR_RETURN(const Volume volume,
@@ -92,7 +92,7 @@ absl::Status Reply(ChildChannel& channel, ReplyKind kind, absl::StatusCode code,
 
 absl::Status ServeOne(ChildChannel& channel) {
   DecodeRequest request;
-  Descriptor file;
+  exec::Descriptor file;
   BCCSKEL_RETURN_IF_ERROR(channel.ReceiveRequest(request, file));
   BCCSKEL_RETURN_IF_ERROR(channel.SendMessage(DecodeReply()));
   const absl::StatusOr<std::string> volume = Decode(request, file);
@@ -105,7 +105,7 @@ int Serve() {
   ConfigureAllocator();
   const uint64_t address_space_bytes = AddressSpaceBytes();
   EnterChildSandbox();
-  ChildChannel channel{Descriptor(kChildChannel)};
+  ChildChannel channel{exec::Descriptor(kChildChannel)};
   absl::Status status = channel.SendMessage(ChildHello{address_space_bytes});
   try {
     while (status.ok()) status = ServeOne(channel);

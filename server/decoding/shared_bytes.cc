@@ -11,18 +11,13 @@
 
 namespace bccskel::server {
 
-void Descriptor::Close() {
-  if (number_ >= 0) close(number_);
-  number_ = -1;
-}
-
 absl::Status NoDecoder(const std::string& what, int error) {
   return CallError(Reason::kDecoderBusy, what + ": " + std::generic_category().message(error));
 }
 
 absl::StatusOr<SharedBytes> SharedBytes::Create() {
-  Descriptor file(memfd_create("volume", MFD_CLOEXEC | MFD_ALLOW_SEALING));
-  if (!file.valid()) return NoDecoder("no memory file for a volume", errno);
+  exec::Descriptor file(memfd_create("volume", MFD_CLOEXEC | MFD_ALLOW_SEALING));
+  if (!file.is_open()) return NoDecoder("no memory file for a volume", errno);
   return SharedBytes(std::move(file));
 }
 

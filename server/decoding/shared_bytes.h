@@ -9,31 +9,9 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "core/exec/descriptor.h"
 
 namespace bccskel::server {
-
-// Owns a file descriptor and closes it.
-class Descriptor {
- public:
-  Descriptor() = default;
-  explicit Descriptor(int number) : number_(number) {}
-  ~Descriptor() { Close(); }
-  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-  Descriptor& operator=(Descriptor&& other) noexcept {
-    if (this == &other) return *this;
-    Close();
-    number_ = std::exchange(other.number_, -1);
-    return *this;
-  }
-
-  int get() const { return number_; }
-  bool valid() const { return number_ >= 0; }
-
- private:
-  void Close();
-
-  int number_ = -1;
-};
 
 // The error for a resource that the server lacks for decoding: a CallError that tells the caller to
 // retry.
@@ -54,9 +32,9 @@ class SharedBytes {
   int descriptor() const { return file_.get(); }
 
  private:
-  explicit SharedBytes(Descriptor file) : file_(std::move(file)) {}
+  explicit SharedBytes(exec::Descriptor file) : file_(std::move(file)) {}
 
-  Descriptor file_;
+  exec::Descriptor file_;
   uint64_t size_ = 0;
 };
 

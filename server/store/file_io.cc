@@ -58,20 +58,10 @@ absl::Status SystemError(const std::string& what, int number) {
   }
 }
 
-File::~File() {
-  if (fd_ >= 0) close(fd_);
-}
-
-File& File::operator=(File&& other) noexcept {
-  std::swap(path_, other.path_);
-  std::swap(fd_, other.fd_);
-  return *this;
-}
-
 absl::StatusOr<File> File::Open(const std::string& path, int flags) {
-  const int fd = open(path.c_str(), flags | O_CLOEXEC, kOwnerFile);
-  if (fd < 0) return Failed("open", path);
-  return File(path, fd);
+  exec::Descriptor file(open(path.c_str(), flags | O_CLOEXEC, kOwnerFile));
+  if (!file.is_open()) return Failed("open", path);
+  return File(path, std::move(file));
 }
 
 absl::StatusOr<File> File::OpenToRead(const std::string& path) { return Open(path, O_RDONLY); }
@@ -84,7 +74,7 @@ absl::StatusOr<File> File::OpenToGoOn(const std::string& path) { return Open(pat
 
 absl::StatusOr<uint64_t> File::Size() const {
   struct stat facts = {};
-  if (fstat(fd_, &facts) != 0) return Failed("measure", path_);
+  if (fstat(fd(), &facts) != 0) return Failed("measure", path_);
   return static_cast<uint64_t>(facts.st_size);
 }
 
@@ -93,7 +83,7 @@ absl::StatusOr<std::string> File::ReadAt(uint64_t offset, size_t size) const {
   size_t done = 0;
   while (done < size) {
     const ssize_t got =
-        pread(fd_, bytes.data() + done, size - done, static_cast<off_t>(offset + done));
+        pread(fd(), bytes.data() + done, size - done, static_cast<off_t>(offset + done));
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) return Failed("read", path_);
     if (got == 0) break;
@@ -105,7 +95,7 @@ absl::StatusOr<std::string> File::ReadAt(uint64_t offset, size_t size) const {
 
 absl::Status File::WriteAt(uint64_t offset, std::string_view bytes) {
   while (!bytes.empty()) {
-    const ssize_t put = pwrite(fd_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    const ssize_t put = pwrite(fd(), bytes.data(), bytes.size(), static_cast<off_t>(offset));
     if (put < 0 && errno == EINTR) continue;
     if (put < 0) return Failed("write", path_);
     bytes.remove_prefix(static_cast<size_t>(put));
@@ -115,10 +105,10 @@ absl::Status File::WriteAt(uint64_t offset, std::string_view bytes) {
 }
 
 absl::Status File::Truncate(uint64_t size) {
-  return ftruncate(fd_, static_cast<off_t>(size)) == 0 ? absl::OkStatus() : Failed("cut", path_);
+  return ftruncate(fd(), static_cast<off_t>(size)) == 0 ? absl::OkStatus() : Failed("cut", path_);
 }
 
-absl::Status File::Sync() { return fsync(fd_) == 0 ? absl::OkStatus() : Failed("sync", path_); }
+absl::Status File::Sync() { return fsync(fd()) == 0 ? absl::OkStatus() : Failed("sync", path_); }
 
 absl::Status MakeFolder(const std::string& path) {
   namespace fs = std::filesystem;
@@ -139,12 +129,10 @@ uint64_t SpaceOf(const std::string& path) {
 }
 
 absl::Status SyncFolder(const std::string& path) {
-  const int fd = open(path.empty() ? "." : path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (fd < 0) return Failed("open", path);
-  const int failed = fsync(fd);
-  const int error = errno;
-  close(fd);
-  return failed == 0 ? absl::OkStatus() : SystemError(absl::StrCat("cannot sync ", path), error);
+  const char* const name = path.empty() ? "." : path.c_str();
+  const exec::Descriptor folder(open(name, O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (!folder.is_open()) return Failed("open", path);
+  return fsync(folder.get()) == 0 ? absl::OkStatus() : Failed("sync", path);
 }
 
 absl::Status SyncFolderOf(const std::string& file_path) { return SyncFolder(FolderOf(file_path)); }

@@ -11,6 +11,7 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "core/digest/sha256.h"
+#include "core/exec/descriptor.h"
 
 namespace bccskel::server {
 
@@ -25,9 +26,6 @@ bool IsMissingFile(const absl::Status& status);
 class File {
  public:
   File() = default;
-  ~File();
-  File(File&& other) noexcept : path_(std::move(other.path_)), fd_(std::exchange(other.fd_, -1)) {}
-  File& operator=(File&& other) noexcept;
 
   static absl::StatusOr<File> OpenToRead(const std::string& path);
   // Creates the file if missing, accessible by the owner only.
@@ -36,8 +34,8 @@ class File {
   static absl::StatusOr<File> OpenToGoOn(const std::string& path);
 
   const std::string& path() const { return path_; }
-  int fd() const { return fd_; }
-  bool is_open() const { return fd_ >= 0; }
+  int fd() const { return descriptor_.get(); }
+  bool is_open() const { return descriptor_.is_open(); }
 
   absl::StatusOr<uint64_t> Size() const;
   // Yields fewer bytes only at the end of the file.
@@ -48,11 +46,12 @@ class File {
   absl::Status Sync();
 
  private:
-  File(std::string path, int fd) : path_(std::move(path)), fd_(fd) {}
+  File(std::string path, exec::Descriptor descriptor)
+      : path_(std::move(path)), descriptor_(std::move(descriptor)) {}
   static absl::StatusOr<File> Open(const std::string& path, int flags);
 
   std::string path_;
-  int fd_ = -1;
+  exec::Descriptor descriptor_;
 };
 
 // Creates the folder and its parents, accessible by the owner only.

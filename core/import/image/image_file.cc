@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <utility>
 
 #include "absl/strings/str_format.h"
 
@@ -22,11 +21,10 @@ absl::Status SystemError(const char* what, const std::string& path) {
 
 absl::StatusOr<std::shared_ptr<const ImageFile>> ImageFile::Open(const std::string& path) {
   // A pipe would wait for its writer.
-  const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (descriptor < 0) return SystemError("open", path);
-  std::shared_ptr<ImageFile> file(new ImageFile(path, descriptor, 0, ""));
+  exec::Descriptor descriptor(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  if (!descriptor.is_open()) return SystemError("open", path);
   struct stat status = {};
-  if (fstat(descriptor, &status) != 0) return SystemError("read", path);
+  if (fstat(descriptor.get(), &status) != 0) return SystemError("read", path);
   if (!S_ISREG(status.st_mode)) {
     return absl::InvalidArgumentError(
         S_ISDIR(status.st_mode)
@@ -35,14 +33,14 @@ absl::StatusOr<std::shared_ptr<const ImageFile>> ImageFile::Open(const std::stri
                               "file first",
                               path));
   }
-  file->size_ = static_cast<uint64_t>(status.st_size);
-  return file;
+  const auto size = static_cast<uint64_t>(status.st_size);
+  return std::shared_ptr<const ImageFile>(new ImageFile(path, std::move(descriptor), size, ""));
 }
 
 std::shared_ptr<const ImageFile> ImageFile::OfBytes(std::string name, std::string bytes) {
   const uint64_t size = bytes.size();
   return std::shared_ptr<const ImageFile>(
-      new ImageFile(std::move(name), -1, size, std::move(bytes)));
+      new ImageFile(std::move(name), {}, size, std::move(bytes)));
 }
 
 absl::StatusOr<std::shared_ptr<const ImageFile>> ImageFile::OpenBeside(
@@ -53,27 +51,23 @@ absl::StatusOr<std::shared_ptr<const ImageFile>> ImageFile::OpenBeside(
     return absl::InvalidArgumentError(absl::StrFormat(
         "the header names '%s' for its voxels; only a file beside the header is read", name));
   }
-  if (descriptor_ < 0) {
+  if (!descriptor_.is_open()) {
     return absl::InvalidArgumentError(
         absl::StrFormat("the header names the file '%s' for its voxels, but is in memory", name));
   }
   return Open(name_.substr(0, name_.rfind('/') + 1) + plain);
 }
 
-ImageFile::~ImageFile() {
-  if (descriptor_ >= 0) close(descriptor_);
-}
-
 absl::StatusOr<size_t> ImageFile::ReadAt(uint64_t offset, std::span<std::byte> into) const {
   if (offset >= size_) return size_t{0};
   const auto wanted = static_cast<size_t>(std::min<uint64_t>(into.size(), size_ - offset));
-  if (descriptor_ < 0) {
+  if (!descriptor_.is_open()) {
     std::memcpy(into.data(), bytes_.data() + offset, wanted);
     return wanted;
   }
   size_t filled = 0;
   while (filled < wanted) {
-    const ssize_t got = pread(descriptor_, into.data() + filled, wanted - filled,
+    const ssize_t got = pread(descriptor_.get(), into.data() + filled, wanted - filled,
                               static_cast<off_t>(offset + filled));
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) return SystemError("read", name_);

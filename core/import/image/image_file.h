@@ -6,8 +6,10 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "absl/status/statusor.h"
+#include "core/exec/descriptor.h"
 
 namespace bccskel {
 
@@ -24,10 +26,6 @@ class ImageFile {
   // Errors: as Open(); INVALID_ARGUMENT for a name with a folder, and for bytes in memory.
   absl::StatusOr<std::shared_ptr<const ImageFile>> OpenBeside(const std::string& name) const;
 
-  ~ImageFile();
-  ImageFile(const ImageFile&) = delete;
-  ImageFile& operator=(const ImageFile&) = delete;
-
   const std::string& name() const { return name_; }
   uint64_t size() const { return size_; }
 
@@ -35,11 +33,14 @@ class ImageFile {
   absl::StatusOr<size_t> ReadAt(uint64_t offset, std::span<std::byte> into) const;
 
  private:
-  ImageFile(std::string name, int descriptor, uint64_t size, std::string bytes)
-      : name_(std::move(name)), descriptor_(descriptor), size_(size), bytes_(std::move(bytes)) {}
+  ImageFile(std::string name, exec::Descriptor descriptor, uint64_t size, std::string bytes)
+      : name_(std::move(name)),
+        descriptor_(std::move(descriptor)),
+        size_(size),
+        bytes_(std::move(bytes)) {}
 
   std::string name_;
-  int descriptor_;  // -1: the bytes are in memory
+  exec::Descriptor descriptor_;  // not open: the bytes are in memory
   uint64_t size_;
   std::string bytes_;
 };

@@ -56,10 +56,10 @@ void GoWrong(const std::string& fault, ChildChannel& channel) {
 
 int RunFaultyChild(const std::string& fault) {
   server::EnterChildSandbox();
-  ChildChannel channel{server::Descriptor(server::kChildChannel)};
+  ChildChannel channel{exec::Descriptor(server::kChildChannel)};
   channel.SendMessage(server::ChildHello{.address_space_bytes = uint64_t{1} << 28}).IgnoreError();
   server::DecodeRequest request;
-  server::Descriptor file;
+  exec::Descriptor file;
   if (!channel.ReceiveRequest(request, file).ok()) return 0;
   channel.SendMessage(server::DecodeReply()).IgnoreError();
   GoWrong(fault, channel);
