@@ -251,7 +251,6 @@ class DurableJobs final : public RunObserver {
   absl::Status WriteError(const Session& session, const absl::Status& error);
   // Also removes the files; the bytes still count toward the quota.
   void DropSession(const UploadRow& row);
-  static RemovalRow RemovalOf(const UploadRow& row);
   absl::Status PrepareUpload(const NewUpload& upload, Opening& opening);
   absl::Status StoreUpload(JobStore& store, Opening& opening);
   absl::Status CheckSameUpload(JobStore& store, const Opening& opening) const;

@@ -216,7 +216,7 @@ absl::Status DurableJobs::StoreMove(JobStore& store, const UploadRow& old, const
   if (now.file != old.file || !now.volume.empty()) {
     return CallError(Reason::kSecondWriter, absl::StrCat(now.name, " continues on another server"));
   }
-  BCCSKEL_RETURN_IF_ERROR(store.Put(RemovalOf(now)));
+  BCCSKEL_RETURN_IF_ERROR(store.Put(RemovalRow{RemovalRow::Kind::kUpload, now.tenant, now.file}));
   now.file = to;
   return store.Put(now);
 }

@@ -144,14 +144,8 @@ absl::Status FolderFiles::RemoveDeleted(JobStore& store) {
 // Deletes the file unless it is in use again.
 absl::Status FolderFiles::Remove(JobStore& store, const RemovalRow& row) const {
   switch (row.kind) {
-    case RemovalRow::Kind::kUpload: {
-      BCCSKEL_ASSIGN_OR_RETURN(const auto again, store.Find<UploadRow>(row.tenant, row.name));
-      const bool wanted = again.has_value() && again->volume.empty();
-      return wanted ? absl::OkStatus()
-                    : UploadFile::Remove(blobs_.PathOfUpload(row.tenant, row.name));
-    }
-    case RemovalRow::Kind::kUploadFile:
-      return UploadFile::Remove(blobs_.PathOfUpload(row.tenant, {}, row.name));
+    case RemovalRow::Kind::kUpload:
+      return UploadFile::Remove(blobs_.PathOfUpload(row.tenant, row.name));
     case RemovalRow::Kind::kBlob: {
       BCCSKEL_ASSIGN_OR_RETURN(const auto again, store.FindVolumesOf(row.tenant, row.name));
       return again.empty() ? RemoveFile(blobs_.PathOfBlob(row.tenant, row.name)) : absl::OkStatus();

@@ -28,18 +28,13 @@ void DurableJobs::DropSession(const UploadRow& row) {
   UploadFile::Remove(blobs_.PathOf(row)).IgnoreError();
 }
 
-RemovalRow DurableJobs::RemovalOf(const UploadRow& row) {
-  if (row.file.empty()) return {RemovalRow::Kind::kUpload, row.tenant, row.name};
-  return {RemovalRow::Kind::kUploadFile, row.tenant, row.file};
-}
-
 Flow DurableJobs::CreateUpload(std::string tenant, NewUpload upload, Done<UploadInfo> done) {
   Opening opening;
   opening.row.tenant = tenant;
   opening.row.name = upload.name.empty() ? RandomName("uploads") : upload.name;
   opening.row.declaration = upload.declaration;
   opening.row.used = Now();
-  if (shared_) opening.row.file = RandomId();
+  opening.row.file = RandomId();
   absl::Status status = PrepareUpload(upload, opening);
   if (status.ok()) {
     status = co_await Commit([&](JobStore& store) { return StoreUpload(store, opening); });
@@ -204,7 +199,7 @@ absl::Status DurableJobs::EraseUpload(JobStore& store, const UploadRow& row, Job
   erased.traces = Erased::Traces::kErase;
   if (!row.volume.empty()) return absl::OkStatus();
   erased.uploads.push_back(row);
-  BCCSKEL_RETURN_IF_ERROR(store.Put(RemovalOf(row)));
+  BCCSKEL_RETURN_IF_ERROR(store.Put(RemovalRow{RemovalRow::Kind::kUpload, row.tenant, row.file}));
   if (row.job.empty()) return absl::OkStatus();
   BCCSKEL_ASSIGN_OR_RETURN(const auto job, store.Find<JobRow>(row.tenant, row.job));
   if (!job.has_value() || IsTerminal(job->state)) return absl::OkStatus();

@@ -103,7 +103,8 @@ absl::Status DurableJobs::StoreVolume(JobStore& store, Finishing& finishing) {
   upload.volume = volume.name;
   upload.used = volume.used;
   BCCSKEL_RETURN_IF_ERROR(store.Put(upload));
-  BCCSKEL_RETURN_IF_ERROR(store.Put(RemovalOf(upload)));
+  BCCSKEL_RETURN_IF_ERROR(
+      store.Put(RemovalRow{RemovalRow::Kind::kUpload, upload.tenant, upload.file}));
   return upload.job.empty() ? absl::OkStatus() : StoreVolumeOfJob(store, finishing);
 }
 

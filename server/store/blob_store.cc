@@ -12,25 +12,15 @@
 #include "server/store/upload_file.h"
 
 namespace bccskel::server {
-namespace {
 
 // Names that callers choose never become file names.
-std::string SafeName(const std::string& name) { return Sha256Of(name).Hex(); }
-
-}  // namespace
-
 std::string BlobStore::PathOf(const std::string& tenant, const char* kind,
                               const std::string& name) const {
-  return absl::StrCat(folder_, "/tenants/", SafeName(tenant), "/", kind, "/", name);
+  return absl::StrCat(folder_, "/tenants/", Sha256Of(tenant).Hex(), "/", kind, "/", name);
 }
 
-std::string BlobStore::PathOfUpload(const std::string& tenant, const std::string& upload,
-                                    const std::string& file) const {
-  return PathOf(tenant, "uploads", file.empty() ? SafeName(upload) : file);
-}
-
-std::string BlobStore::PathOf(const UploadRow& row) const {
-  return PathOfUpload(row.tenant, row.name, row.file);
+std::string BlobStore::PathOfUpload(const std::string& tenant, const std::string& file) const {
+  return PathOf(tenant, "uploads", file);
 }
 
 std::string BlobStore::PathOfBlob(const std::string& tenant, const std::string& digest) const {

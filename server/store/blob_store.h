@@ -28,11 +28,9 @@ class BlobStore {
  public:
   explicit BlobStore(std::string folder) : folder_(std::move(folder)) {}
 
-  // The path of the upload's bytes for UploadFile. `file` as in UploadRow; empty: the file named
-  // after the upload.
-  std::string PathOfUpload(const std::string& tenant, const std::string& upload,
-                           const std::string& file = {}) const;
-  std::string PathOf(const UploadRow& row) const;
+  // The path of the upload's bytes for UploadFile. `file` as in UploadRow.
+  std::string PathOfUpload(const std::string& tenant, const std::string& file) const;
+  std::string PathOf(const UploadRow& row) const { return PathOfUpload(row.tenant, row.file); }
   std::string PathOf(const VolumeRow& row) const { return PathOfBlob(row.tenant, row.blob_digest); }
   std::string PathOfBlob(const std::string& tenant, const std::string& digest) const;
   std::string PathOfResult(const std::string& tenant, const std::string& name) const;

@@ -35,7 +35,7 @@ struct UploadRow {
   std::string job;          // that waits for the upload; empty if none
   std::string volume;       // made from the upload; empty before
   Time used;                // last
-  std::string file;         // with its bytes; empty: the file named after the upload
+  std::string file;         // the random name of the file with its bytes
 };
 
 struct VolumeRow {
@@ -106,10 +106,10 @@ struct EventRow {
 // behind, and no file is deleted merely because no row names it.
 struct RemovalRow {
   // The numbers are stored and must never change.
-  enum class Kind { kUpload = 0, kBlob = 1, kResult = 2, kUploadFile = 3 };
+  enum class Kind { kUpload = 0, kBlob = 1, kResult = 2 };
   Kind kind = Kind::kUpload;
   std::string tenant;
-  std::string name;  // of the upload; the blob's digest; of the result's or upload's file
+  std::string name;  // of the upload's or result's file; the blob's digest
 };
 
 // The last progress of a running job, which may be lost. Only its server interprets the bytes.

