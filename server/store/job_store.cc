@@ -214,8 +214,8 @@ absl::StatusOr<std::vector<JobRow>> JobStore::ListJobs(const std::string& tenant
   const std::string name = after.has_value() ? after->name : std::string();
   return Select<JobRow>(
       Damaged::kFails,
-      "WHERE tenant = $1 AND (created, name) < ($2, $3) AND ((1 << state) & $4) != 0"
-      " ORDER BY created DESC, name DESC LIMIT $5",
+      "WHERE tenant = $1 AND (created, name) < ($2, $3)"
+      " AND ((1 << CAST(state AS INTEGER)) & $4) != 0 ORDER BY created DESC, name DESC LIMIT $5",
       tenant, created, name, states, most);
 }
 
