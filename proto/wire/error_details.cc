@@ -3,6 +3,7 @@
 #include "absl/strings/cord.h"
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
+#include "proto/wire/duration.h"
 
 namespace bccskel::wire {
 namespace {
@@ -66,9 +67,7 @@ absl::Status WithQuota(absl::Status status, const std::string& limit) {
 
 absl::Status WithRetryDelay(absl::Status status, absl::Duration delay) {
   v1::RetryInfo info;
-  info.mutable_retry_delay()->set_seconds(absl::ToInt64Seconds(delay));
-  info.mutable_retry_delay()->set_nanos(static_cast<int32_t>(
-      absl::ToInt64Nanoseconds(delay - absl::Seconds(absl::ToInt64Seconds(delay)))));
+  *info.mutable_retry_delay() = DurationMessage(absl::ToChronoNanoseconds(delay));
   return WithPayload(std::move(status), kRetryInfo, info);
 }
 

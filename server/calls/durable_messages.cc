@@ -1,5 +1,7 @@
 #include "server/calls/durable_messages.h"
 
+#include <google/protobuf/util/time_util.h>
+
 #include <algorithm>
 #include <chrono>
 #include <iterator>
@@ -73,12 +75,8 @@ absl::Status CheckRequestId(const std::string& id) {
 }  // namespace
 
 google::protobuf::Timestamp ToMessage(Time time) {
-  const auto since = time.time_since_epoch();
-  const auto seconds = std::chrono::floor<std::chrono::seconds>(since);
-  google::protobuf::Timestamp message;
-  message.set_seconds(seconds.count());
-  message.set_nanos(static_cast<int32_t>(std::chrono::nanoseconds(since - seconds).count()));
-  return message;
+  const std::chrono::nanoseconds since = time.time_since_epoch();
+  return google::protobuf::util::TimeUtil::NanosecondsToTimestamp(since.count());
 }
 
 v1::Upload ToMessage(const UploadInfo& upload) {
