@@ -58,9 +58,9 @@ Setting CountSetting(std::string name, uint64_t& target, std::string description
   return Single(std::move(name), "N", target, std::move(description), parse);
 }
 
-Setting SizeSetting(std::string name, uint64_t& target, uint64_t low, std::string description) {
+Setting SizeSetting(std::string name, uint64_t& target, std::string description) {
   return Single(std::move(name), "SIZE", target, std::move(description),
-                [low](const std::string& text) { return ParseSize(text, low); });
+                [](const std::string& text) { return ParseSize(text, 0); });
 }
 
 Setting MillisecondsSetting(std::string name, std::chrono::milliseconds& target,

@@ -25,7 +25,7 @@ struct Setting {
 // Each sets `target`, which must outlive the setting.
 Setting NumberSetting(std::string name, int& target, int low, int high, std::string description);
 Setting CountSetting(std::string name, uint64_t& target, std::string description);
-Setting SizeSetting(std::string name, uint64_t& target, uint64_t low, std::string description);
+Setting SizeSetting(std::string name, uint64_t& target, std::string description);
 Setting MillisecondsSetting(std::string name, std::chrono::milliseconds& target,
                             std::string description);
 Setting HoursSetting(std::string name, std::chrono::seconds& target, std::string description);
