@@ -1,10 +1,9 @@
-#include "core/io/bricks_writer.h"
-
 #include <vector>
 
 #include "core/exec/status_macros.h"
 #include "core/io/bricks_header.h"
 #include "core/io/encoded_body.h"
+#include "core/io/volume_writers.h"
 
 namespace bccskel {
 namespace {

@@ -1,11 +1,10 @@
-#include "core/io/exr_chunk_table.h"
-
 #include <algorithm>
 #include <cstdint>
 
 #include "absl/status/statusor.h"
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
+#include "core/io/exr_header.h"
 #include "core/io/little_endian.h"
 
 namespace bccskel {

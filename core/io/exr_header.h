@@ -52,6 +52,13 @@ bool BeginsLikeExr(std::span<const std::byte> front);
 absl::StatusOr<ExrHeader> ScanExrHeader(std::span<const std::byte> front,
                                         const VolumeLimits& limits);
 
+// Checks the chunk offset tables and the 12 bytes in front of every chunk of a whole file: each
+// chunk lies where its table says, belongs to its part and line, has a size that its compression
+// can have, and all chunks together fill the file to its last byte. OpenEXR itself would take a
+// chunk of no bytes for one of whatever its buffer held before.
+// Errors: INVALID_ARGUMENT.
+absl::Status CheckExrChunks(std::span<const std::byte> file, const ExrHeader& header);
+
 }  // namespace bccskel
 
 #endif  // BCCSKEL_CORE_IO_EXR_HEADER_H_

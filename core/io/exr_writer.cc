@@ -1,5 +1,3 @@
-#include "core/io/exr_writer.h"
-
 #include <openexr.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include "core/io/brick_rows.h"
 #include "core/io/exr_context.h"
 #include "core/io/exr_header.h"
+#include "core/io/volume_writers.h"
 
 namespace bccskel {
 namespace {

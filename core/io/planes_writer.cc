@@ -1,5 +1,3 @@
-#include "core/io/planes_writer.h"
-
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -7,6 +5,7 @@
 #include "core/exec/status_macros.h"
 #include "core/io/brick_rows.h"
 #include "core/io/encoded_body.h"
+#include "core/io/volume_writers.h"
 
 namespace bccskel {
 

@@ -2,9 +2,7 @@
 
 #include "core/exec/status_macros.h"
 #include "core/io/bricks_decoder.h"
-#include "core/io/exr_decoder.h"
-#include "core/io/mask_decoder.h"
-#include "core/io/planes_decoder.h"
+#include "core/io/volume_decoders.h"
 
 namespace bccskel {
 
@@ -13,13 +11,13 @@ absl::StatusOr<std::unique_ptr<VolumeDecoder>> MakeVolumeDecoder(const VolumeHea
   BCCSKEL_ASSIGN_OR_RETURN(const VolumeHeader checked, CompleteVolumeHeader(header, limits));
   switch (checked.encoding) {
     case VolumeEncoding::kOpenExr:
-      return std::make_unique<ExrDecoder>(checked, limits);
+      return MakeExrDecoder(checked, limits);
     case VolumeEncoding::kRawPlanes:
-      return std::make_unique<PlanesDecoder>(checked);
+      return MakePlanesDecoder(checked);
     case VolumeEncoding::kBricks:
       return std::make_unique<BricksDecoder>(checked, limits);
     case VolumeEncoding::kCubicMask:
-      return MaskDecoder::Create(checked);
+      return MakeMaskDecoder(checked);
   }
   return absl::InvalidArgumentError("unknown volume encoding");
 }

@@ -4,9 +4,7 @@
 
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
-#include "core/io/bricks_writer.h"
-#include "core/io/exr_writer.h"
-#include "core/io/planes_writer.h"
+#include "core/io/volume_writers.h"
 
 namespace bccskel {
 namespace {
