@@ -1,11 +1,10 @@
-#include "core/import/image/compressed_segmentation.h"
-
 #include <algorithm>
 #include <bit>
 #include <cstring>
 
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
+#include "core/import/image/chunk_codec.h"
 
 namespace bccskel {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/import/image/dicom_image.h"
+#include "core/import/image/image_readers.h"
 
 namespace bccskel {
 

@@ -7,6 +7,7 @@
 
 #include "absl/status/statusor.h"
 #include "core/import/image/dicom_stack.h"
+#include "core/import/image/image_options.h"
 
 namespace bccskel {
 
@@ -31,6 +32,12 @@ struct DicomHeader {
 //         orientation and pixel spacing); UNIMPLEMENTED for colors and
 //         fractional segmentations. Messages name the file.
 absl::StatusOr<DicomHeader> ReadDicomHeader(const std::string& path);
+
+// The headers of a file, or of the files of one series in a folder; at least one, all of images.
+// Errors: those of ReadDicomHeader(); INVALID_ARGUMENT, with the series there are, for several
+//         without ImageOptions::series and for one that is not there.
+absl::StatusOr<std::vector<DicomHeader>> DicomFilesOf(const std::string& path,
+                                                      const ImageOptions& options);
 
 }  // namespace bccskel
 

@@ -1,5 +1,3 @@
-#include "core/import/image/dicom_image.h"
-
 #include <dcmtk/dcmdata/dcrledrg.h>
 #include <dcmtk/dcmdata/dctk.h>
 #include <dcmtk/dcmjpeg/djdecode.h>
@@ -17,8 +15,8 @@
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
 #include "core/import/image/dicom_header.h"
-#include "core/import/image/dicom_series.h"
 #include "core/import/image/dicom_stack.h"
+#include "core/import/image/image_readers.h"
 #include "core/import/image/slice_buffer.h"
 
 namespace bccskel {

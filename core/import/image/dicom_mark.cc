@@ -5,7 +5,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "core/import/image/dicom_image.h"
+#include "core/import/image/image_readers.h"
 
 namespace bccskel {
 

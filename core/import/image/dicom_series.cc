@@ -1,5 +1,3 @@
-#include "core/import/image/dicom_series.h"
-
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -9,7 +7,8 @@
 
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
-#include "core/import/image/dicom_image.h"
+#include "core/import/image/dicom_header.h"
+#include "core/import/image/image_readers.h"
 
 namespace bccskel {
 namespace {

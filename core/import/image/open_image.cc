@@ -14,15 +14,11 @@
 
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
-#include "core/import/image/dicom_image.h"
 #include "core/import/image/header_text.h"
 #include "core/import/image/image_headers.h"
-#include "core/import/image/png_image.h"
-#include "core/import/image/precomputed_image.h"
+#include "core/import/image/image_readers.h"
 #include "core/import/image/slice_series.h"
 #include "core/import/image/stored_image.h"
-#include "core/import/image/tiff_source.h"
-#include "core/import/image/zarr_image.h"
 #include "core/import/image/zip_archive.h"
 
 namespace bccskel {

@@ -1,5 +1,3 @@
-#include "core/import/image/png_image.h"
-
 #include <png.h>
 
 #include <array>
@@ -12,6 +10,7 @@
 #include "core/exec/status_macros.h"
 #include "core/exec/uninitialized.h"
 #include "core/import/image/byte_stream.h"
+#include "core/import/image/image_readers.h"
 #include "core/import/image/slice_buffer.h"
 
 namespace bccskel {

@@ -1,5 +1,3 @@
-#include "core/import/image/precomputed_image.h"
-
 #include <algorithm>
 #include <filesystem>
 #include <optional>
@@ -14,9 +12,9 @@
 #include "core/import/image/byte_stream.h"
 #include "core/import/image/chunk_codec.h"
 #include "core/import/image/chunked_image.h"
-#include "core/import/image/compressed_segmentation.h"
 #include "core/import/image/header_text.h"
 #include "core/import/image/image_choice.h"
+#include "core/import/image/image_readers.h"
 #include "core/import/image/json_metadata.h"
 
 namespace bccskel {

@@ -1,5 +1,3 @@
-#include "core/import/image/tiff_source.h"
-
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -11,6 +9,7 @@
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
 #include "core/import/image/byte_stream.h"
+#include "core/import/image/image_readers.h"
 #include "core/import/image/slice_buffer.h"
 #include "core/import/image/tiff_client.h"
 #include "core/import/image/tiff_stack.h"

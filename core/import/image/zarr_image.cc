@@ -1,5 +1,3 @@
-#include "core/import/image/zarr_image.h"
-
 #include <algorithm>
 #include <filesystem>
 #include <optional>
@@ -13,6 +11,7 @@
 #include "core/exec/uninitialized.h"
 #include "core/import/image/chunked_image.h"
 #include "core/import/image/image_choice.h"
+#include "core/import/image/image_readers.h"
 #include "core/import/image/json_metadata.h"
 #include "core/import/image/zarr_metadata.h"
 
