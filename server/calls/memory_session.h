@@ -16,8 +16,8 @@
 #include "server/calls/session.h"
 #include "server/calls/skeleton_responses.h"
 #include "server/errors/call_error.h"
-#include "server/jobs/chunk_checksum.h"
 #include "server/jobs/job_runner.h"
+#include "server/jobs/volume_receiver.h"
 
 namespace bccskel::server {
 

@@ -5,8 +5,8 @@
 #include "core/exec/status_macros.h"
 #include "server/durable/durable_jobs.h"
 #include "server/errors/call_error.h"
-#include "server/jobs/chunk_checksum.h"
 #include "server/jobs/names.h"
+#include "server/jobs/volume_receiver.h"
 #include "server/store/file_io.h"
 
 namespace bccskel::server {

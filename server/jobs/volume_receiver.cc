@@ -7,8 +7,10 @@
 #include <utility>
 
 #include "absl/strings/str_format.h"
+#include "core/digest/crc32c.h"
 #include "core/exec/status_macros.h"
 #include "core/io/little_endian.h"
+#include "server/errors/call_error.h"
 
 namespace bccskel::server {
 namespace {
@@ -66,6 +68,14 @@ absl::Status CheckDigest(Sha256& received, const std::optional<Sha256Digest>& ex
 }
 
 }  // namespace
+
+absl::Status CheckChunk(const std::string& bytes, std::optional<uint32_t> crc32c) {
+  if (!crc32c.has_value() || *crc32c == Crc32c(bytes)) return absl::OkStatus();
+  return CallError(
+      Reason::kChunkChecksum,
+      absl::StrFormat("the chunk's CRC-32C is %d, the request states %d", Crc32c(bytes), *crc32c),
+      {.field = "chunk.crc32c"});
+}
 
 VolumeReceiver::VolumeReceiver(const VolumeHeader& declared, uint64_t size_bytes,
                                const VolumeLimits& limits, MakeDecoder make_decoder)

@@ -22,6 +22,9 @@
 
 namespace bccskel::server {
 
+// Errors: INVALID_ARGUMENT if the sender of a chunk states another CRC-32C than that of its bytes.
+absl::Status CheckChunk(const std::string& bytes, std::optional<uint32_t> crc32c);
+
 // Receives the bytes of a declared volume: computes their digest, compares the volume's own header
 // with the declaration, and decodes.
 // Threads: one at a time.
