@@ -66,6 +66,14 @@ absl::StatusOr<VolumeCompression> ReadCompression(std::span<const std::byte> fro
   }
 }
 
+constexpr int32_t kMaxBrickCoordinate =
+    (1 << 21) - 3;  // what the fields of a BrickKey can tell apart
+
+bool FitsBrickKey(const BrickCoordinates& brick) {
+  const auto fits = [](int32_t v) { return v >= 0 && v <= kMaxBrickCoordinate; };
+  return fits(brick.bx) && fits(brick.by) && fits(brick.bz);
+}
+
 }  // namespace
 
 bool BeginsLikeBricks(std::span<const std::byte> front) {
@@ -114,6 +122,25 @@ std::array<std::byte, kBrickRecordBytes> EncodeBrickRecord(BrickKey key, const B
   StoreNumber(static_cast<uint32_t>(brick.sublattice), record, 12);
   std::memcpy(record.data() + 16, bits.words.data(), sizeof(bits.words));
   return record;
+}
+
+absl::StatusOr<BrickRecord> ParseBrickRecord(uint64_t number, std::span<const std::byte> record) {
+  const auto sublattice = LoadNumber<uint32_t>(record, 12);
+  if (sublattice > 1) {
+    return absl::InvalidArgumentError(absl::StrFormat(
+        "brick record %d: sublattice %d must be 0 (even) or 1 (odd)", number, sublattice));
+  }
+  const BrickCoordinates brick = {LoadNumber<int32_t>(record, 0), LoadNumber<int32_t>(record, 4),
+                                  LoadNumber<int32_t>(record, 8),
+                                  static_cast<Sublattice>(sublattice)};
+  if (!FitsBrickKey(brick)) {
+    return absl::InvalidArgumentError(
+        absl::StrFormat("brick record %d: brick (%d, %d, %d), each coordinate must be 0 to %d",
+                        number, brick.bx, brick.by, brick.bz, kMaxBrickCoordinate));
+  }
+  BrickRecord parsed = {BrickKey(brick), {}};
+  std::memcpy(parsed.bits.words.data(), record.data() + 16, sizeof(parsed.bits.words));
+  return parsed;
 }
 
 }  // namespace bccskel

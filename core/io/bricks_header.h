@@ -31,6 +31,14 @@ std::array<std::byte, kBricksHeaderBytes> EncodeBricksHeader(const Volume& volum
 
 std::array<std::byte, kBrickRecordBytes> EncodeBrickRecord(BrickKey key, const BrickBits& bits);
 
+// What record number `number` of an encoding says.
+// Shapes: kBrickRecordBytes. Errors: INVALID_ARGUMENT.
+struct BrickRecord {
+  BrickKey key;
+  BrickBits bits;
+};
+absl::StatusOr<BrickRecord> ParseBrickRecord(uint64_t number, std::span<const std::byte> record);
+
 }  // namespace bccskel
 
 #endif  // BCCSKEL_CORE_IO_BRICKS_HEADER_H_

@@ -1,7 +1,6 @@
 #include "core/io/volume_decoder.h"
 
 #include "core/exec/status_macros.h"
-#include "core/io/bricks_decoder.h"
 #include "core/io/volume_decoders.h"
 
 namespace bccskel {
@@ -15,7 +14,7 @@ absl::StatusOr<std::unique_ptr<VolumeDecoder>> MakeVolumeDecoder(const VolumeHea
     case VolumeEncoding::kRawPlanes:
       return MakePlanesDecoder(checked);
     case VolumeEncoding::kBricks:
-      return std::make_unique<BricksDecoder>(checked, limits);
+      return MakeBricksDecoder(checked, limits);
     case VolumeEncoding::kCubicMask:
       return MakeMaskDecoder(checked);
   }

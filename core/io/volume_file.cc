@@ -16,9 +16,9 @@
 #include "core/exec/status_macros.h"
 #include "core/exec/worker_team.h"
 #include "core/io/brick_collector.h"
-#include "core/io/bricks_decoder.h"
+#include "core/io/bricks_header.h"
 #include "core/io/file_replacement.h"
-#include "core/io/volume_decoder.h"
+#include "core/io/volume_decoders.h"
 #include "core/io/volume_encoder.h"
 
 namespace bccskel {
@@ -111,7 +111,7 @@ absl::StatusOr<Volume> DecodeFile(const exec::Descriptor& file, const LayerPart&
   if (encoding == VolumeEncoding::kBricks) {
     const bool in_place = header.compression == VolumeCompression::kNone && share.count > 1;
     if (in_place) return ReadRecords(file, header, share, context);
-    decoder = std::make_unique<BricksDecoder>(header, limits, share);
+    decoder = MakeBricksDecoder(header, limits, share);
   } else {
     if (share.index > 0) return Volume::FromSortedBricks(header.extent, header.placement, {}, {});
     BCCSKEL_ASSIGN_OR_RETURN(decoder, MakeVolumeDecoder(header, limits));
