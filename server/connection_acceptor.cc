@@ -21,7 +21,6 @@
 #include "core/exec/status_macros.h"
 #include "proto/address/address.h"
 #include "server/logging/json_log.h"
-#include "server/settings/values.h"
 
 namespace bccskel::server {
 namespace {

@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "core/exec/status_macros.h"
+#include "proto/address/address.h"
 #include "server/calls/services.h"
 #include "server/metrics/call_meter.h"
-#include "server/settings/values.h"
 
 namespace bccskel::server {
 namespace {

@@ -36,6 +36,12 @@ absl::Status CheckAddress(const std::string& address) {
       "'", address, "' is neither HOST:PORT, with a port of 0 to 65535, nor unix:PATH"));
 }
 
+std::string SocketPathOf(const std::string& address) {
+  if (!address.starts_with(kUnixPrefix)) return std::string();
+  const std::string path = address.substr(sizeof(kUnixPrefix) - 1);
+  return path.starts_with("//") ? path.substr(2) : path;
+}
+
 std::string HostOf(const std::string& address) { return address.substr(0, address.rfind(':')); }
 
 bool IsOfThisMachine(const std::string& address) {

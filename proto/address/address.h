@@ -15,6 +15,9 @@ inline constexpr char kUnixPrefix[] = "unix:";
 //         drops control characters of a host, and everything after NUL.
 absl::Status CheckAddress(const std::string& address);
 
+// The path of unix:/path or unix:///path; empty if the address is not a Unix socket.
+std::string SocketPathOf(const std::string& address);
+
 // The part of HOST:PORT before the port, as written.
 std::string HostOf(const std::string& address);
 

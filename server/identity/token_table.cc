@@ -16,7 +16,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
 #include "core/exec/status_macros.h"
-#include "server/settings/values.h"
+#include "server/settings/setting.h"
 
 namespace bccskel::server {
 namespace {

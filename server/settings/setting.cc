@@ -4,15 +4,16 @@
 #include <chrono>
 #include <limits>
 #include <ratio>
+#include <string_view>
 #include <utility>
 
 #include "absl/status/statusor.h"
+#include "absl/strings/ascii.h"
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "core/exec/status_macros.h"
 #include "proto/address/address.h"
-#include "server/settings/values.h"
 
 namespace bccskel::server {
 namespace {
@@ -41,7 +42,44 @@ Setting Single(std::string name, std::string value, Value& target, std::string d
           [&target] { return Shown(target); }};
 }
 
+absl::Status Wrong(const std::string& text, const std::string& must) {
+  return absl::InvalidArgumentError(absl::StrCat(text, ": must be ", must));
+}
+
+// The power of 1024 of a unit; -1 for an unknown unit.
+int PowerOf(std::string unit) {
+  absl::AsciiStrToLower(&unit);
+  if (unit.empty() || unit == "b") return 0;
+  constexpr std::string_view kLetters = "kmgt";
+  const size_t power = kLetters.find(unit[0]);
+  const std::string rest = unit.substr(1);
+  const bool known =
+      power != std::string_view::npos && (rest.empty() || rest == "b" || rest == "ib");
+  return known ? static_cast<int>(power) + 1 : -1;
+}
+
 }  // namespace
+
+absl::StatusOr<int> ParseNumber(const std::string& text, int low, int high) {
+  int number = 0;
+  if (absl::SimpleAtoi(text, &number) && number >= low && number <= high) return number;
+  return Wrong(text, absl::StrCat("a number from ", low, " to ", high));
+}
+
+absl::StatusOr<uint64_t> ParseSize(const std::string& text, uint64_t low) {
+  const size_t digits = std::min(text.find_first_not_of("0123456789"), text.size());
+  std::string unit = text.substr(digits);
+  absl::StripAsciiWhitespace(&unit);
+  uint64_t bytes = 0;
+  const int power = PowerOf(unit);
+  const bool number = absl::SimpleAtoi(text.substr(0, digits), &bytes) && power >= 0;
+  if (number && bytes <= std::numeric_limits<uint64_t>::max() >> (10 * power)) {
+    bytes <<= 10 * power;
+    if (bytes >= low) return bytes;
+  }
+  return Wrong(text, absl::StrCat("a size of at least ", low,
+                                  " bytes, with or without a unit, such as 256MB or 8GB"));
+}
 
 Setting NumberSetting(std::string name, int& target, int low, int high, std::string description) {
   return Single(std::move(name), "N", target, std::move(description),
@@ -52,8 +90,7 @@ Setting CountSetting(std::string name, uint64_t& target, std::string description
   const auto parse = [](const std::string& text) -> absl::StatusOr<uint64_t> {
     uint64_t count = 0;
     if (absl::SimpleAtoi(text, &count) && count > 0) return count;
-    return absl::InvalidArgumentError(
-        absl::StrCat(text, ": must be a number from 1 to ", std::numeric_limits<uint64_t>::max()));
+    return Wrong(text, absl::StrCat("a number from 1 to ", std::numeric_limits<uint64_t>::max()));
   };
   return Single(std::move(name), "N", target, std::move(description), parse);
 }
@@ -80,8 +117,7 @@ Setting HoursSetting(std::string name, std::chrono::seconds& target, std::string
     if (absl::SimpleAtod(text, &hours) && hours >= kLeast && hours <= kYear) {
       return std::chrono::round<std::chrono::seconds>(Hours(hours));
     }
-    return absl::InvalidArgumentError(
-        absl::StrCat(text, ": must be a number from ", kLeast, " to ", kYear));
+    return Wrong(text, absl::StrCat("a number from ", kLeast, " to ", kYear));
   };
   return Single(std::move(name), "HOURS", target, std::move(description), parse);
 }
@@ -92,8 +128,7 @@ Setting ChoiceSetting(std::string name, std::string& target, std::vector<std::st
   const auto parse =
       [choices = std::move(choices)](const std::string& text) -> absl::StatusOr<std::string> {
     if (std::ranges::find(choices, text) != choices.end()) return text;
-    return absl::InvalidArgumentError(
-        absl::StrCat(text, ": must be one of ", absl::StrJoin(choices, ", ")));
+    return Wrong(text, absl::StrCat("one of ", absl::StrJoin(choices, ", ")));
   };
   return Single(std::move(name), words, target, std::move(description), parse);
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "absl/status/status.h"
+#include "absl/status/statusor.h"
 
 namespace bccskel::server {
 
@@ -37,6 +38,11 @@ Setting PathSetting(std::string name, std::string& target, std::string descripti
 Setting AddressSetting(std::string name, std::string& target, std::string description);
 Setting AddressesSetting(std::string name, std::vector<std::string>& target,
                          std::string description);
+
+// Parse the values of settings. Errors: INVALID_ARGUMENT, with the value and the limit.
+absl::StatusOr<int> ParseNumber(const std::string& text, int low, int high);
+// A number of bytes, optionally with a unit in powers of 1024 (KB, MB, GB, TB, also KiB and so on).
+absl::StatusOr<uint64_t> ParseSize(const std::string& text, uint64_t low);
 
 }  // namespace bccskel::server
 

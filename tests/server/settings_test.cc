@@ -6,7 +6,6 @@
 #include <string>
 
 #include "server/settings/setting.h"
-#include "server/settings/values.h"
 
 namespace bccskel::server {
 namespace {
