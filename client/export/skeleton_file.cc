@@ -101,10 +101,17 @@ absl::StatusOr<view::Peeling> PeelingOf(const Subject& subject) {
                             subject.context);
 }
 
+absl::StatusOr<view::ResultDocument> DocumentOf(const Subject& subject) {
+  return view::ParseResultDocument(JsonText(subject.result, OrderOf(subject), subject.world));
+}
+
+absl::StatusOr<std::string> SvgText(const Subject& subject) {
+  BCCSKEL_ASSIGN_OR_RETURN(const view::ResultDocument result, DocumentOf(subject));
+  return SvgText(subject, result);
+}
+
 absl::StatusOr<std::string> PageText(const Subject& subject) {
-  BCCSKEL_ASSIGN_OR_RETURN(
-      const view::ResultDocument result,
-      view::ParseResultDocument(JsonText(subject.result, OrderOf(subject), subject.world)));
+  BCCSKEL_ASSIGN_OR_RETURN(const view::ResultDocument result, DocumentOf(subject));
   BCCSKEL_ASSIGN_OR_RETURN(const view::Peeling peeling, PeelingOf(subject));
   return view::PageOf({subject.title, result, peeling});
 }

@@ -57,8 +57,8 @@ absl::Status CheckOutput(const std::string& path);
 // held everything.
 // Needs:  for kVolume (.exr, .bccb), a result with its thin volume.
 // Errors: INVALID_ARGUMENT (ending; coordinates too large for a double); UNIMPLEMENTED for kPng
-//         without the subject's `draw`; those of WriteFileAtomically(); for kHtml and kPng those of
-//         the subject's context.
+//         without the subject's `draw`; those of WriteFileAtomically(); for formats that show the
+//         object those of the subject's context.
 absl::StatusOr<std::string> WriteSkeletonFile(const std::string& path, const Subject& subject);
 
 // The same for a graph alone.

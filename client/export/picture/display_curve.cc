@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <string_view>
-#include <utility>
 
 namespace bccskel::exporting {
 namespace {
@@ -22,16 +21,6 @@ void SmoothOnce(std::vector<WorldPoint>& points) {
   }
 }
 
-DisplayCurve CurveOf(const SkeletonGraph& graph, const SkeletonEdge& edge) {
-  DisplayCurve curve;
-  for (const SkeletonPoint& p : graph.PointsOf(edge)) {
-    curve.points.push_back(graph.PositionOf(p));
-    curve.radii.push_back(graph.RadiusOf(p));
-  }
-  curve.points = SmoothedForDisplay(std::move(curve.points));
-  return curve;
-}
-
 using Rgb = std::array<double, 3>;
 // Dark enough on white everywhere, and distinguishable without red and green.
 constexpr std::array<Rgb, 5> kRadiusScale = {
@@ -42,12 +31,6 @@ constexpr std::array<Rgb, 5> kRadiusScale = {
 std::vector<WorldPoint> SmoothedForDisplay(std::vector<WorldPoint> points) {
   for (int step = 0; step < kSmoothingSteps && !points.empty(); ++step) SmoothOnce(points);
   return points;
-}
-
-std::vector<DisplayCurve> DisplayCurvesOf(const SkeletonGraph& graph) {
-  std::vector<DisplayCurve> curves;
-  for (const SkeletonEdge& edge : graph.edges) curves.push_back(CurveOf(graph, edge));
-  return curves;
 }
 
 RadiusRange RadiusRangeOf(const SkeletonGraph& graph) {

@@ -10,17 +10,9 @@
 
 namespace bccskel::exporting {
 
-// An edge as drawn in pictures: in world coordinates, with the steps of the lattice smoothed
-// between its fixed ends. For display only; every other format holds the exact points.
-struct DisplayCurve {
-  std::vector<WorldPoint> points;
-  std::vector<double> radii;
-};
-
-// Smooths the steps of the lattice; keeps the first and the last point.
+// Smooths the steps of the lattice in an edge's points; keeps the first and the last point. For
+// pictures only; every other format holds the exact points.
 std::vector<WorldPoint> SmoothedForDisplay(std::vector<WorldPoint> points);
-
-std::vector<DisplayCurve> DisplayCurvesOf(const SkeletonGraph& graph);
 
 // The range of radii of a graph's points, nodes and sheets; {0, 0} for an empty graph.
 struct RadiusRange {

@@ -12,25 +12,30 @@ struct Range {
   double high = -std::numeric_limits<double>::infinity();
 
   double middle() const { return low / 2 + high / 2; }
+  double length() const { return high > low ? high - low : kLeast; }
+
+  static constexpr double kLeast = 1e-9;  // so that a point has a scale
 };
 
-Range RangeAlong(const WorldPoint& v, const Spheres& shown) {
+Range RangeAlong(const WorldPoint& v, std::span<const WorldPoint> shown) {
+  if (shown.empty()) return {0, 0};
   Range range;
-  for (const WorldPoint& center : shown.centers) {
-    const double place = Dot(v, center);
-    range.low = std::min(range.low, place - shown.radius);
-    range.high = std::max(range.high, place + shown.radius);
+  for (const WorldPoint& point : shown) {
+    const double place = Dot(v, point);
+    range.low = std::min(range.low, place);
+    range.high = std::max(range.high, place);
   }
   return range;
 }
 
 }  // namespace
 
-Projection::Projection(const View& view, const Spheres& shown, PanelSize panel, double margin)
+Projection::Projection(const View& view, std::span<const WorldPoint> shown, PanelSize panel,
+                       double margin)
     : view_(view), panel_(panel) {
   const Range right = RangeAlong(view.right, shown), up = RangeAlong(view.up, shown);
-  scale_ = std::min((panel.width - 2 * margin) / (right.high - right.low),
-                    (panel.height - 2 * margin) / (up.high - up.low));
+  scale_ = std::min((panel.width - 2 * margin) / right.length(),
+                    (panel.height - 2 * margin) / up.length());
   middle_right_ = right.middle();
   middle_up_ = up.middle();
 }

@@ -10,12 +10,6 @@ namespace bccskel::exporting {
 
 using view::View;
 
-// Spheres of equal radius in the world that a picture must contain.
-struct Spheres {
-  std::span<const WorldPoint> centers;
-  double radius;
-};
-
 // A panel of a picture in its own units, x to the right and y down.
 struct PanelSize {
   double width;
@@ -29,15 +23,15 @@ struct PanelPoint {
   double depth;
 };
 
-// Parallel projection that fits the shown spheres to a panel.
+// Parallel projection that fits the shown points to a panel.
 class Projection {
  public:
-  // Needs: at least one center, a radius > 0, the panel larger than twice the margin.
-  Projection(const View& view, const Spheres& shown, PanelSize panel, double margin);
+  // No points: the world's origin lies in the middle.
+  // Needs: the panel larger than twice the margin.
+  Projection(const View& view, std::span<const WorldPoint> shown, PanelSize panel, double margin);
 
   PanelPoint Project(const WorldPoint& p) const;
   double scale() const { return scale_; }  // panel units per world unit
-  const View& view() const { return view_; }
 
  private:
   View view_;

@@ -3,21 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
-#include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "absl/strings/escaping.h"
+#include "client/export/picture/beads.h"
 #include "client/export/picture/caption.h"
 #include "client/export/picture/display_curve.h"
 #include "client/export/picture/escape.h"
-#include "client/export/picture/png.h"
+#include "client/export/picture/glass_image.h"
 #include "client/export/picture/projection.h"
-#include "client/export/picture/scene.h"
-#include "client/export/picture/surface_image.h"
 #include "client/export/text.h"
+#include "client/view/display_surface.h"
 #include "core/exec/status_macros.h"
 
 namespace bccskel::exporting {
@@ -26,6 +24,9 @@ namespace {
 constexpr double kWidth = 1240, kHeight = 860;
 constexpr double kPixelsPerUnit = 1.5;  // of the glass images
 constexpr double kMargin = 26;
+// The glass images end inside the panels, whose corners are round.
+constexpr double kRim = 8;
+constexpr size_t kMostTriangles = 200'000;  // of the object's surface
 
 // The position of a view in the picture.
 struct Panel {
@@ -39,17 +40,26 @@ constexpr std::array<Panel, 3> kPanels = {
 // Two decimals are a hundredth of a pixel.
 double Rounded(double v) { return std::round(v * 100) / 100; }
 
-absl::StatusOr<std::string> GlassImage(const Spheres& surface, const Projection& projection,
+// The contents of all panels.
+struct Scene {
+  const Subject& subject;
+  const view::ResultDocument& result;
+  view::DisplaySurface surface;
+  RadiusRange radii;
+};
+
+// As a PNG file, on the panels' color.
+absl::StatusOr<std::string> GlassImage(const Scene& scene, const View& view,
                                        const PanelSize& size) {
-  std::vector<PanelPoint> points;
-  points.reserve(surface.centers.size());
-  for (const WorldPoint& p : surface.centers) {
-    const PanelPoint q = projection.Project(p);
-    points.push_back({q.x * kPixelsPerUnit, q.y * kPixelsPerUnit, q.depth * kPixelsPerUnit});
-  }
-  const double radius = surface.radius * projection.scale() * kPixelsPerUnit;
-  return EncodePng(RenderSurface(points, radius, static_cast<uint32_t>(size.width * kPixelsPerUnit),
-                                 static_cast<uint32_t>(size.height * kPixelsPerUnit)));
+  constexpr double kSamples = kPixelsPerUnit * kSamplesPerPixel;
+  const Projection projection(view, scene.surface.vertices,
+                              {size.width * kSamples, size.height * kSamples},
+                              (kMargin - kRim) * kSamples);
+  BCCSKEL_ASSIGN_OR_RETURN(
+      const RgbImage image,
+      ImageOf(GlassOf(scene.surface, projection), static_cast<int>(size.width * kPixelsPerUnit),
+              static_cast<int>(size.height * kPixelsPerUnit), scene.subject.context));
+  return PngOf(image);
 }
 
 // A piece of a curve in one color.
@@ -60,23 +70,24 @@ struct Stroke {
 };
 
 // Cuts a curve where its color changes, and often enough that strokes can be sorted by depth.
-void AppendStrokes(const DisplayCurve& curve, const Scene& scene, const Projection& projection,
-                   std::vector<Stroke>& strokes) {
+void AppendStrokes(const view::ResultDocument::Edge& edge, const RadiusRange& radii,
+                   const Projection& projection, std::vector<Stroke>& strokes) {
   constexpr size_t kLongest = 12;
-  for (size_t n = 1; n < curve.points.size(); ++n) {
-    const int color = RadiusColorIndex((curve.radii[n - 1] + curve.radii[n]) / 2, scene.radii);
-    const PanelPoint p = projection.Project(curve.points[n - 1]);
+  const std::vector<WorldPoint> curve = SmoothedForDisplay(edge.points);
+  for (size_t n = 1; n < curve.size(); ++n) {
+    const int color = RadiusColorIndex((edge.radii[n - 1] + edge.radii[n]) / 2, radii);
+    const PanelPoint p = projection.Project(curve[n - 1]);
     const bool starts =
         n == 1 || strokes.back().color != color || strokes.back().points.size() >= kLongest;
     if (starts) strokes.push_back({{p}, color, p.depth});
-    strokes.back().points.push_back(projection.Project(curve.points[n]));
+    strokes.back().points.push_back(projection.Project(curve[n]));
   }
 }
 
 std::vector<Stroke> StrokesFromBack(const Scene& scene, const Projection& projection) {
   std::vector<Stroke> strokes;
-  for (const DisplayCurve& curve : scene.curves) {
-    AppendStrokes(curve, scene, projection, strokes);
+  for (const view::ResultDocument::Edge& edge : scene.result.edges) {
+    AppendStrokes(edge, scene.radii, projection, strokes);
   }
   std::ranges::stable_sort(strokes, {}, &Stroke::depth);
   return strokes;
@@ -107,15 +118,18 @@ struct ColoredDot {
 
 // The points of sheets, the nearest last. Consecutive dots of one color form one path of lines
 // without length.
-void AddSheets(Text& svg, const SkeletonGraph& graph, const RadiusRange& radii,
-               const Projection& projection, double width) {
+void AddSheets(Text& svg, const Scene& scene, const Projection& projection) {
+  const view::ResultDocument::Sheets& sheets = scene.result.sheets;
   std::vector<ColoredDot> dots;
-  for (const SkeletonPoint& p : graph.sheets) {
+  for (size_t n = 0; n < sheets.points.size(); ++n) {
     dots.push_back(
-        {projection.Project(graph.PositionOf(p)), RadiusColorIndex(graph.RadiusOf(p), radii)});
+        {projection.Project(sheets.points[n]), RadiusColorIndex(sheets.radii[n], scene.radii)});
   }
   std::ranges::stable_sort(dots, {}, [](const ColoredDot& dot) { return dot.at.depth; });
-  svg.Add("<g fill=\"none\" stroke-linecap=\"round\" stroke-width=\"", Rounded(width), "\">\n");
+  const double spacing = std::ranges::max(scene.subject.object.placement().spacing);
+  const double between = spacing * std::sqrt(3.0) / 2;  // D8 neighbors
+  svg.Add("<g fill=\"none\" stroke-linecap=\"round\" stroke-width=\"",
+          Rounded(std::max(between * projection.scale(), 1.0)), "\">\n");
   for (size_t n = 0; n < dots.size(); ++n) {
     const bool starts = n == 0 || dots[n].color != dots[n - 1].color;
     if (starts)
@@ -125,24 +139,17 @@ void AddSheets(Text& svg, const SkeletonGraph& graph, const RadiusRange& radii,
   svg.Add(dots.empty() ? "" : "\"/>\n", "</g>\n");
 }
 
-std::string_view NodeStyle(NodeKind kind) {
-  switch (kind) {
-    case NodeKind::kEnd:
-      return "fill=\"#fff\" stroke=\"#1f2937\"";
-    case NodeKind::kJunction:
-      return "fill=\"#1f2937\" stroke=\"#fff\"";
-    case NodeKind::kLoop:
-    case NodeKind::kIsolated:
-    case NodeKind::kClosedSurface:
-      return "fill=\"#0d9488\" stroke=\"#fff\"";
-  }
-  return "";  // not reached: the enumerators are exhausted above
+std::string_view NodeStyle(std::string_view kind) {
+  if (kind == "end") return "fill=\"#fff\" stroke=\"#1f2937\"";
+  if (kind == "junction") return "fill=\"#1f2937\" stroke=\"#fff\"";
+  return "fill=\"#0d9488\" stroke=\"#fff\"";
 }
 
-void AddNodes(Text& svg, const SkeletonGraph& graph, const Projection& projection, double radius) {
-  for (const SkeletonNode& node : graph.nodes) {
-    if (node.kind == NodeKind::kLoop) continue;  // represents its curve only
-    const PanelPoint p = projection.Project(graph.PositionOf(node.at));
+void AddNodes(Text& svg, const view::ResultDocument& result, const Projection& projection,
+              double radius) {
+  for (const view::ResultDocument::Node& node : result.nodes) {
+    if (node.kind == "loop") continue;  // represents its curve only
+    const PanelPoint p = projection.Project(node.position);
     svg.Add("<circle cx=\"", Rounded(p.x), "\" cy=\"", Rounded(p.y), "\" r=\"", Rounded(radius),
             "\" stroke-width=\"", Rounded(radius / 3), "\" ", NodeStyle(node.kind), "/>\n");
   }
@@ -161,22 +168,20 @@ void AddAxes(Text& svg, const View& view, const PanelSize& size) {
   svg.Add("</g>\n");
 }
 
-absl::Status AddPanel(Text& svg, const Subject& subject, const Scene& scene, const Panel& panel,
-                      const View& view) {
-  const Spheres surface = {scene.surface, scene.point_spacing};
-  const Projection projection(view, surface, panel.size, kMargin);
-  BCCSKEL_ASSIGN_OR_RETURN(const std::string png, GlassImage(surface, projection, panel.size));
+absl::Status AddPanel(Text& svg, const Scene& scene, const Panel& panel, const View& view) {
+  const Projection projection(view, scene.surface.vertices, panel.size, kMargin);
+  const PanelSize image = {panel.size.width - 2 * kRim, panel.size.height - 2 * kRim};
+  BCCSKEL_ASSIGN_OR_RETURN(const std::string png, GlassImage(scene, view, image));
   svg.Add("<svg x=\"", panel.x, "\" y=\"", panel.y, "\" width=\"", panel.size.width, "\" height=\"",
           panel.size.height, "\">\n<rect class=\"p\" width=\"100%\" ",
           "height=\"100%\" rx=\"10\"/>\n");
-  svg.Add("<image width=\"", panel.size.width, "\" height=\"", panel.size.height,
-          "\" href=\"data:image/png;base64,", absl::Base64Escape(png), "\"/>\n");
+  svg.Add("<image x=\"", kRim, "\" y=\"", kRim, "\" width=\"", image.width, "\" height=\"",
+          image.height, "\" href=\"data:image/png;base64,", absl::Base64Escape(png), "\"/>\n");
   const double boldness = panel.size.width > 500 ? 1 : 0.7;
-  const bool dense = subject.result.graph.nodes.size() > 300;
-  AddSheets(svg, subject.result.graph, scene.radii, projection,
-            std::max(scene.point_spacing * projection.scale(), 1.0));
+  const bool dense = scene.result.nodes.size() > 300;
+  AddSheets(svg, scene, projection);
   AddStrokes(svg, StrokesFromBack(scene, projection), (dense ? 1.6 : 2.6) * boldness);
-  AddNodes(svg, subject.result.graph, projection, (dense ? 1.8 : 3.6) * boldness);
+  AddNodes(svg, scene.result, projection, (dense ? 1.8 : 3.6) * boldness);
   AddAxes(svg, view, panel.size);
   svg.Add("</svg>\n");
   return absl::OkStatus();
@@ -207,7 +212,7 @@ void AddRadiusLegend(Text& svg, const RadiusRange& radii) {
   AddLegendText(svg, kBar + kStep * kRadiusColors + 8, "start", std::move(high).Take());
 }
 
-void AddNodeLegend(Text& svg, double x, NodeKind kind, std::string_view label) {
+void AddNodeLegend(Text& svg, double x, std::string_view kind, std::string_view label) {
   svg.Add("<circle cx=\"", x, "\" cy=\"828\" r=\"4\" stroke-width=\"1.4\" ", NodeStyle(kind),
           "/>\n");
   AddLegendText(svg, x + 12, "start", label);
@@ -215,9 +220,9 @@ void AddNodeLegend(Text& svg, double x, NodeKind kind, std::string_view label) {
 
 void AddLegend(Text& svg, const RadiusRange& radii) {
   AddRadiusLegend(svg, radii);
-  AddNodeLegend(svg, 520, NodeKind::kEnd, "end");
-  AddNodeLegend(svg, 588, NodeKind::kJunction, "junction");
-  AddNodeLegend(svg, 688, NodeKind::kIsolated, "isolated point or closed surface");
+  AddNodeLegend(svg, 520, "end", "end");
+  AddNodeLegend(svg, 588, "junction", "junction");
+  AddNodeLegend(svg, 688, "isolated", "isolated point or closed surface");
 }
 
 void AddHead(Text& svg, const Subject& subject) {
@@ -234,23 +239,18 @@ void AddHead(Text& svg, const Subject& subject) {
           SkeletonPhrase(subject.result), "</text>\n");
 }
 
-std::optional<view::SliceFacts> SliceFactsOf(const Subject& subject) {
-  const SkeletonizeOptions& options = subject.result.options;
-  if (options.source != ObjectSource::kVoxels) return std::nullopt;
-  return view::SliceFacts{subject.object.placement().spacing[2], options.voxel_slabs[2],
-                          subject.world.axes};
-}
-
 }  // namespace
 
-absl::StatusOr<std::string> SvgText(const Subject& subject) {
-  const Scene scene = SceneOf(subject);
-  const std::array<View, 3> views =
-      view::ViewsOf(view::FrontOf(scene.box, scene.surface, SliceFactsOf(subject)));
+absl::StatusOr<std::string> SvgText(const Subject& subject, const view::ResultDocument& result) {
+  BCCSKEL_ASSIGN_OR_RETURN(
+      view::DisplaySurface surface,
+      view::MakeDisplaySurface(subject.object, kMostTriangles, subject.context));
+  const Scene scene = {subject, result, std::move(surface), RadiusRangeOf(result)};
+  const std::array<View, 3> views = view::ViewsOf(view::FrontOf(result, scene.surface.vertices));
   Text svg;
   AddHead(svg, subject);
   for (size_t n = 0; n < kPanels.size(); ++n) {
-    BCCSKEL_RETURN_IF_ERROR(AddPanel(svg, subject, scene, kPanels[n], views[n]));
+    BCCSKEL_RETURN_IF_ERROR(AddPanel(svg, scene, kPanels[n], views[n]));
   }
   AddLegend(svg, scene.radii);
   svg.Add("</svg>\n");

@@ -5,13 +5,15 @@
 
 #include "absl/status/statusor.h"
 #include "client/export/subject.h"
+#include "client/view/result_document.h"
 
 namespace bccskel::exporting {
 
 // A self-contained SVG: the object as tinted glass in three views, its skeleton colored by radius
 // within, and the certificate in words.
-// Errors: RESOURCE_EXHAUSTED.
-absl::StatusOr<std::string> SvgText(const Subject& subject);
+// Needs:  `result` is the subject's, as JSON has it.
+// Errors: those of MakeDisplaySurface(); RESOURCE_EXHAUSTED.
+absl::StatusOr<std::string> SvgText(const Subject& subject, const view::ResultDocument& result);
 
 }  // namespace bccskel::exporting
 

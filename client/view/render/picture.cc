@@ -3,7 +3,6 @@
 #include <cairo.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -11,19 +10,17 @@
 #include <string_view>
 #include <utility>
 
+#include "client/export/picture/beads.h"
 #include "client/export/picture/caption.h"
-#include "client/view/render/band.h"
-#include "client/view/render/beads.h"
-#include "client/view/render/glass_color.h"
+#include "client/export/picture/glass_image.h"
 #include "client/view/sheet_surface.h"
 #include "core/certificate/describe_changes.h"
-#include "core/export/surface/smooth_surface.h"
+#include "core/exec/status_macros.h"
 
 namespace bccskel::view {
 namespace {
 
-constexpr int kSamplesPerPixel = 3;  // along each axis
-constexpr int kBandRows = 16;        // pixels
+using exporting::Geometry, exporting::LinearColor, exporting::kSamplesPerPixel;
 
 // Space for text above and below the object, in font sizes.
 constexpr double kWordsAbove = 6, kWordsBelow = 4;
@@ -33,16 +30,11 @@ double FontSize(const PictureOptions& options) {
 
 exporting::Projection ProjectionOf(const ResultDocument& result, const DisplaySurface& surface,
                                    const PictureOptions& options) {
-  constexpr WorldPoint kOrigin = {0, 0, 0};
-  const exporting::Spheres shown = {surface.vertices.empty()
-                                        ? std::span<const WorldPoint>(&kOrigin, 1)
-                                        : std::span<const WorldPoint>(surface.vertices),
-                                    1e-9};
-  const Front front = FrontOf(result, shown.centers);
+  const Front front = FrontOf(result, surface.vertices);
   const double words = (kWordsAbove + kWordsBelow) * FontSize(options);
   return exporting::Projection(
       ViewFrom(front.view, options.turn.value_or(front.turn), options.climb.value_or(front.climb)),
-      shown,
+      surface.vertices,
       {static_cast<double>(kSamplesPerPixel * options.width),
        kSamplesPerPixel * std::max(options.height - words, options.height / 2.0)},
       kSamplesPerPixel * FontSize(options));
@@ -60,21 +52,21 @@ double ThinnedBy(const ResultDocument& result, const DisplaySurface& surface) {
 
 // Normals of a mesh without consistent orientation: those around a vertex are flipped to agree. Not
 // normalized.
-std::vector<ViewNormal> NormalsOfEitherSide(const SurfaceMesh& mesh) {
-  std::vector<ViewNormal> normals(mesh.vertices.size(), ViewNormal{});
+std::vector<exporting::ViewNormal> NormalsOfEitherSide(const SurfaceMesh& mesh) {
+  std::vector<exporting::ViewNormal> normals(mesh.vertices.size(), exporting::ViewNormal{});
   for (const SurfaceTriangle& t : mesh.triangles) {
     const auto &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
-    const ViewNormal u = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-    const ViewNormal v = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
-    const ViewNormal n = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
-                          u[0] * v[1] - u[1] * v[0]};
+    const exporting::ViewNormal u = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+    const exporting::ViewNormal v = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
+    const exporting::ViewNormal n = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
+                                     u[0] * v[1] - u[1] * v[0]};
     for (const uint32_t corner : t) {
-      ViewNormal& sum = normals[corner];
+      exporting::ViewNormal& sum = normals[corner];
       const float sign = sum[0] * n[0] + sum[1] * n[1] + sum[2] * n[2] < 0 ? -1.0f : 1.0f;
       for (size_t axis = 0; axis < 3; ++axis) sum[axis] += sign * n[axis];
     }
   }
-  for (ViewNormal& n : normals) {
+  for (exporting::ViewNormal& n : normals) {
     if (n[2] < 0) n = {-n[0], -n[1], -n[2]};
   }
   return normals;
@@ -83,78 +75,27 @@ std::vector<ViewNormal> NormalsOfEitherSide(const SurfaceMesh& mesh) {
 Geometry GeometryOf(const ResultDocument& result, const DisplaySurface& surface,
                     const PictureOptions& options) {
   const exporting::Projection projection = ProjectionOf(result, surface, options);
-  const double above = kSamplesPerPixel * kWordsAbove * FontSize(options);
-  const auto projected = [&](const std::vector<WorldPoint>& vertices) {
-    std::vector<SurfaceVertex> places;
-    for (const WorldPoint& v : vertices) {
-      const exporting::PanelPoint p = projection.Project(v);
-      places.push_back(
-          {static_cast<float>(p.x), static_cast<float>(-p.y - above), static_cast<float>(p.depth)});
-    }
-    return places;
-  };
-  Geometry geometry;
-  geometry.glass = {projected(surface.vertices), surface.triangles};
-  geometry.normals = NormalsOf(geometry.glass);
+  Geometry geometry = exporting::GlassOf(surface, projection);
   SheetSurface sheets = SheetSurfaceOf(result);
-  geometry.sheets.mesh = {projected(sheets.vertices), std::move(sheets.triangles)};
+  geometry.sheets.mesh = {exporting::VerticesOf(sheets.vertices, projection),
+                          std::move(sheets.triangles)};
   geometry.sheets.normals = NormalsOfEitherSide(geometry.sheets.mesh);
-  const exporting::RadiusRange radii = RadiusRangeOf(result);
+  const exporting::RadiusRange radii = exporting::RadiusRangeOf(result);
   for (const double radius : sheets.radii) {
-    geometry.sheets.colors.push_back(ColorOf(radius, radii));
+    geometry.sheets.colors.push_back(exporting::ColorOf(radius, radii));
   }
   const double thickness = kSamplesPerPixel * std::min(options.width, options.height) / 320.0 *
                            ThinnedBy(result, surface);
-  geometry.beads = BeadsOf(result, projection, thickness);
-  for (Bead& bead : geometry.beads) bead.y += static_cast<float>(above);
+  geometry.beads = exporting::BeadsOf(result, projection, thickness);
+  const auto above = static_cast<float>(kSamplesPerPixel * kWordsAbove * FontSize(options));
+  for (SurfaceVertex& v : geometry.glass.vertices) v[1] -= above;
+  for (SurfaceVertex& v : geometry.sheets.mesh.vertices) v[1] -= above;
+  for (exporting::Bead& bead : geometry.beads) bead.y += above;
   return geometry;
 }
 
 using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
 using Pen = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;
-
-// The mean color of a pixel's samples, in Cairo's format.
-uint32_t PixelAt(const Band& band, int x, int row) {
-  LinearColor sum = {};
-  for (int j = 0; j < kSamplesPerPixel; ++j) {
-    for (int i = 0; i < kSamplesPerPixel; ++i) {
-      const LinearColor color = ColorAt(band, kSamplesPerPixel * x + i, kSamplesPerPixel * row + j);
-      for (size_t n = 0; n < 3; ++n) sum[n] += color[n];
-    }
-  }
-  uint32_t pixel = 0xff;
-  for (const float part : sum) {
-    pixel = pixel << 8 |
-            static_cast<uint32_t>(std::lround(255 * part / (kSamplesPerPixel * kSamplesPerPixel)));
-  }
-  return pixel;
-}
-
-void DrawBand(const Geometry& geometry, int top, int rows, cairo_surface_t* image) {
-  const int width = cairo_image_surface_get_width(image);
-  Band band(kSamplesPerPixel * width, kSamplesPerPixel * top, kSamplesPerPixel * rows);
-  band.Draw(geometry);
-  for (int row = 0; row < rows; ++row) {
-    auto* line = reinterpret_cast<uint32_t*>(cairo_image_surface_get_data(image) +
-                                             static_cast<ptrdiff_t>(top + row) *
-                                                 cairo_image_surface_get_stride(image));
-    for (int x = 0; x < width; ++x) line[x] = PixelAt(band, x, row);
-  }
-}
-
-absl::Status DrawObject(const Geometry& geometry, cairo_surface_t* image,
-                        const exec::Context& context) {
-  const int height = cairo_image_surface_get_height(image);
-  std::atomic<int> next = 0;
-  cairo_surface_flush(image);
-  context.Offer([&](int) {
-    for (int top; !context.ShouldStop() && (top = kBandRows * next++) < height;) {
-      DrawBand(geometry, top, std::min(kBandRows, height - top), image);
-    }
-  });
-  cairo_surface_mark_dirty(image);
-  return context.StopStatus();
-}
 
 // Text and a legend around the object.
 class Words {
@@ -180,7 +121,7 @@ class Words {
   }
 
   void AddLegend(const ResultDocument& result) {
-    const exporting::RadiusRange radii = RadiusRangeOf(result);
+    const exporting::RadiusRange radii = exporting::RadiusRangeOf(result);
     const double base = height_ - 1.8 * size_;
     double x = Label("radius " + Figure(radii.low), kMargin * size_, base);
     cairo_set_antialias(pen_, CAIRO_ANTIALIAS_NONE);  // no seams
@@ -195,9 +136,10 @@ class Words {
     const auto has = [&](std::string_view kind) {
       return std::ranges::any_of(result.nodes, [&](const auto& node) { return node.kind == kind; });
     };
-    if (has("end")) x = Dot("end", kEndColor, x + size_, base);
-    if (has("junction")) x = Dot("junction", kJunctionColor, x + size_, base);
-    if (has("isolated") || has("closed_surface")) Dot("other", kOtherColor, x + size_, base);
+    if (has("end")) x = Dot("end", exporting::kEndColor, x + size_, base);
+    if (has("junction")) x = Dot("junction", exporting::kJunctionColor, x + size_, base);
+    if (has("isolated") || has("closed_surface"))
+      Dot("other", exporting::kOtherColor, x + size_, base);
   }
 
  private:
@@ -265,33 +207,24 @@ absl::Status CheckCairo(cairo_status_t status) {
   return absl::ResourceExhaustedError(std::string("Cairo: ") + cairo_status_to_string(status));
 }
 
-absl::StatusOr<std::string> EncodedPng(cairo_surface_t* image) {
-  std::string png;
-  const auto append = [](void* to, const unsigned char* bytes, unsigned count) {
-    static_cast<std::string*>(to)->append(reinterpret_cast<const char*>(bytes), count);
-    return CAIRO_STATUS_SUCCESS;
-  };
-  const absl::Status status = CheckCairo(cairo_surface_write_to_png_stream(image, append, &png));
-  if (!status.ok()) return status;
-  return png;
-}
-
 }  // namespace
 
 absl::StatusOr<std::string> RenderPng(const ResultDocument& result, const DisplaySurface& surface,
                                       const PictureOptions& options, const exec::Context& context) {
-  const Surface image(cairo_image_surface_create(CAIRO_FORMAT_RGB24, options.width, options.height),
+  BCCSKEL_ASSIGN_OR_RETURN(exporting::RgbImage image,
+                           exporting::ImageOf(GeometryOf(result, surface, options), options.width,
+                                              options.height, context));
+  const Surface drawn(cairo_image_surface_create_for_data(
+                          reinterpret_cast<unsigned char*>(image.pixels.data()), CAIRO_FORMAT_RGB24,
+                          image.width, image.height, 4 * image.width),
                       &cairo_surface_destroy);
-  absl::Status status = CheckCairo(cairo_surface_status(image.get()));
-  if (status.ok()) status = DrawObject(GeometryOf(result, surface, options), image.get(), context);
-  if (!status.ok()) return status;
-  const Pen pen(cairo_create(image.get()), &cairo_destroy);
+  const Pen pen(cairo_create(drawn.get()), &cairo_destroy);
   Words words(pen.get(), options);
-  words.AddTitle(result, CanWrite(image.get(), options.title) ? options.title : "");
+  words.AddTitle(result, CanWrite(drawn.get(), options.title) ? options.title : "");
   words.AddLegend(result);
-  status = CheckCairo(cairo_status(pen.get()));
-  if (!status.ok()) return status;
-  return EncodedPng(image.get());
+  BCCSKEL_RETURN_IF_ERROR(CheckCairo(cairo_status(pen.get())));
+  cairo_surface_flush(drawn.get());
+  return exporting::PngOf(image);
 }
 
 }  // namespace bccskel::view

@@ -1,13 +1,10 @@
-#include "client/view/render/beads.h"
+#include "client/export/picture/beads.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace bccskel::view {
+namespace bccskel::exporting {
 namespace {
-
-using exporting::PanelPoint;
-using exporting::RadiusRange;
 
 Bead BeadAt(const PanelPoint& p, double radius, const LinearColor& color) {
   return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.depth),
@@ -20,11 +17,11 @@ PanelPoint Between(const PanelPoint& a, const PanelPoint& b, double part) {
 
 class Stringer {
  public:
-  Stringer(const exporting::Projection& projection, double thickness, const RadiusRange& range)
+  Stringer(const Projection& projection, double thickness, const RadiusRange& range)
       : projection_(projection), thickness_(thickness), range_(range) {}
 
-  void AddEdge(const ResultDocument::Edge& edge) {
-    const std::vector<WorldPoint> curve = exporting::SmoothedForDisplay(edge.points);
+  void AddEdge(const view::ResultDocument::Edge& edge) {
+    const std::vector<WorldPoint> curve = SmoothedForDisplay(edge.points);
     for (size_t n = 1; n < curve.size(); ++n) {
       const PanelPoint from = projection_.Project(curve[n - 1]), to = projection_.Project(curve[n]);
       const int steps = 1 + static_cast<int>(std::hypot(to.x - from.x, to.y - from.y));
@@ -36,7 +33,7 @@ class Stringer {
     }
   }
 
-  void AddNode(const ResultDocument::Node& node) {
+  void AddNode(const view::ResultDocument::Node& node) {
     if (node.kind == "loop") return;  // represents its curve only
     const LinearColor& color = node.kind == "end"        ? kEndColor
                                : node.kind == "junction" ? kJunctionColor
@@ -47,7 +44,7 @@ class Stringer {
   std::vector<Bead> Take() && { return std::move(beads_); }
 
  private:
-  const exporting::Projection& projection_;
+  const Projection& projection_;
   const double thickness_;
   const RadiusRange range_;
   std::vector<Bead> beads_;
@@ -56,30 +53,31 @@ class Stringer {
 }  // namespace
 
 LinearColor ColorOf(double radius, const RadiusRange& range) {
-  const auto rgb = exporting::RadiusRgb(exporting::RadiusColorIndex(radius, range));
+  const auto rgb = RadiusRgb(RadiusColorIndex(radius, range));
   return {static_cast<float>(rgb[0] / 255), static_cast<float>(rgb[1] / 255),
           static_cast<float>(rgb[2] / 255)};
 }
 
-RadiusRange RadiusRangeOf(const ResultDocument& result) {
+RadiusRange RadiusRangeOf(const view::ResultDocument& result) {
   if (result.nodes.empty()) return {0, 0};
   RadiusRange range = {result.nodes.front().radius, result.nodes.front().radius};
   const auto include = [&](double radius) {
     range.low = std::min(range.low, radius);
     range.high = std::max(range.high, radius);
   };
-  for (const ResultDocument::Node& node : result.nodes) include(node.radius);
-  for (const ResultDocument::Edge& edge : result.edges) std::ranges::for_each(edge.radii, include);
+  for (const view::ResultDocument::Node& node : result.nodes) include(node.radius);
+  for (const view::ResultDocument::Edge& edge : result.edges)
+    std::ranges::for_each(edge.radii, include);
   std::ranges::for_each(result.sheets.radii, include);
   return range;
 }
 
-std::vector<Bead> BeadsOf(const ResultDocument& result, const exporting::Projection& projection,
+std::vector<Bead> BeadsOf(const view::ResultDocument& result, const Projection& projection,
                           double thickness) {
   Stringer stringer(projection, thickness, RadiusRangeOf(result));
-  for (const ResultDocument::Edge& edge : result.edges) stringer.AddEdge(edge);
-  for (const ResultDocument::Node& node : result.nodes) stringer.AddNode(node);
+  for (const view::ResultDocument::Edge& edge : result.edges) stringer.AddEdge(edge);
+  for (const view::ResultDocument::Node& node : result.nodes) stringer.AddNode(node);
   return std::move(stringer).Take();
 }
 
-}  // namespace bccskel::view
+}  // namespace bccskel::exporting

@@ -1,9 +1,9 @@
-#include "client/view/render/band.h"
+#include "client/export/picture/band.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace bccskel::view {
+namespace bccskel::exporting {
 namespace {
 
 // The samples of a band that an interval of coordinates covers; sample n lies at n.
@@ -105,4 +105,4 @@ void Band::DrawBead(const Bead& bead) {
   }
 }
 
-}  // namespace bccskel::view
+}  // namespace bccskel::exporting

@@ -1,9 +1,9 @@
-#include "client/view/render/glass_color.h"
+#include "client/export/picture/glass_color.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace bccskel::view {
+namespace bccskel::exporting {
 namespace {
 
 // Light on a surface from a lamp at the upper left in front of it.
@@ -67,4 +67,4 @@ LinearColor ColorAt(const Band& band, int x, int row) {
   return color;
 }
 
-}  // namespace bccskel::view
+}  // namespace bccskel::exporting

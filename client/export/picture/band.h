@@ -1,13 +1,13 @@
-#ifndef BCCSKEL_CLIENT_VIEW_RENDER_BAND_H_
-#define BCCSKEL_CLIENT_VIEW_RENDER_BAND_H_
+#ifndef BCCSKEL_CLIENT_EXPORT_PICTURE_BAND_H_
+#define BCCSKEL_CLIENT_EXPORT_PICTURE_BAND_H_
 
 #include <limits>
 #include <vector>
 
-#include "client/view/render/beads.h"
+#include "client/export/picture/beads.h"
 #include "core/export/surface/surface_mesh.h"
 
-namespace bccskel::view {
+namespace bccskel::exporting {
 
 using ViewNormal = std::array<float, 3>;  // to the right, up, to the viewer
 
@@ -66,6 +66,6 @@ class Band {
 
 inline constexpr float kNothing = std::numeric_limits<float>::infinity();
 
-}  // namespace bccskel::view
+}  // namespace bccskel::exporting
 
-#endif  // BCCSKEL_CLIENT_VIEW_RENDER_BAND_H_
+#endif  // BCCSKEL_CLIENT_EXPORT_PICTURE_BAND_H_

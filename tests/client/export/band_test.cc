@@ -1,8 +1,8 @@
-#include "client/view/render/band.h"
+#include "client/export/picture/band.h"
 
 #include <gtest/gtest.h>
 
-namespace bccskel::view {
+namespace bccskel::exporting {
 namespace {
 
 // Two triangles over each other, the larger one behind, and a bead between them.
@@ -64,4 +64,4 @@ TEST(BandTest, BandsShowTheirPartOfTheWhole) {
 }
 
 }  // namespace
-}  // namespace bccskel::view
+}  // namespace bccskel::exporting

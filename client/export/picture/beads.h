@@ -1,5 +1,5 @@
-#ifndef BCCSKEL_CLIENT_VIEW_RENDER_BEADS_H_
-#define BCCSKEL_CLIENT_VIEW_RENDER_BEADS_H_
+#ifndef BCCSKEL_CLIENT_EXPORT_PICTURE_BEADS_H_
+#define BCCSKEL_CLIENT_EXPORT_PICTURE_BEADS_H_
 
 #include <array>
 #include <vector>
@@ -8,7 +8,7 @@
 #include "client/export/picture/projection.h"
 #include "client/view/result_document.h"
 
-namespace bccskel::view {
+namespace bccskel::exporting {
 
 using LinearColor = std::array<float, 3>;  // red, green, blue, 0..1
 
@@ -21,10 +21,10 @@ struct Bead {
   LinearColor color;
 };
 
-exporting::RadiusRange RadiusRangeOf(const ResultDocument& result);
+RadiusRange RadiusRangeOf(const view::ResultDocument& result);
 
 // The color of beads and sheets of this radius.
-LinearColor ColorOf(double radius, const exporting::RadiusRange& range);
+LinearColor ColorOf(double radius, const RadiusRange& range);
 
 inline constexpr LinearColor kEndColor = {0.06f, 0.72f, 0.51f};
 inline constexpr LinearColor kJunctionColor = {0.12f, 0.16f, 0.22f};
@@ -33,9 +33,9 @@ inline constexpr LinearColor kOtherColor = {0.01f, 0.52f, 0.78f};
 // The skeleton as strings of beads that overlap so closely that they look like tubes, colored by
 // radius, with a larger bead per node.
 // Units: `thickness`, the radius of a tube, in units of the projection.
-std::vector<Bead> BeadsOf(const ResultDocument& result, const exporting::Projection& projection,
+std::vector<Bead> BeadsOf(const view::ResultDocument& result, const Projection& projection,
                           double thickness);
 
-}  // namespace bccskel::view
+}  // namespace bccskel::exporting
 
-#endif  // BCCSKEL_CLIENT_VIEW_RENDER_BEADS_H_
+#endif  // BCCSKEL_CLIENT_EXPORT_PICTURE_BEADS_H_

@@ -1,0 +1,98 @@
+#include "client/export/picture/glass_image.h"
+
+#include <png.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include "client/export/picture/glass_color.h"
+#include "core/exec/status_macros.h"
+#include "core/export/surface/smooth_surface.h"
+
+namespace bccskel::exporting {
+namespace {
+
+constexpr int kBandRows = 16;  // pixels
+
+// The mean color of a pixel's samples.
+uint32_t PixelAt(const Band& band, int x, int row) {
+  LinearColor sum = {};
+  for (int j = 0; j < kSamplesPerPixel; ++j) {
+    for (int i = 0; i < kSamplesPerPixel; ++i) {
+      const LinearColor color = ColorAt(band, kSamplesPerPixel * x + i, kSamplesPerPixel * row + j);
+      for (size_t n = 0; n < 3; ++n) sum[n] += color[n];
+    }
+  }
+  uint32_t pixel = 0xff;
+  for (const float part : sum) {
+    pixel = pixel << 8 |
+            static_cast<uint32_t>(std::lround(255 * part / (kSamplesPerPixel * kSamplesPerPixel)));
+  }
+  return pixel;
+}
+
+void DrawBand(const Geometry& geometry, int top, int rows, RgbImage& image) {
+  Band band(kSamplesPerPixel * image.width, kSamplesPerPixel * top, kSamplesPerPixel * rows);
+  band.Draw(geometry);
+  auto pixel = image.pixels.begin() + static_cast<ptrdiff_t>(top) * image.width;
+  for (int row = 0; row < rows; ++row) {
+    for (int x = 0; x < image.width; ++x) *pixel++ = PixelAt(band, x, row);
+  }
+}
+
+}  // namespace
+
+std::vector<SurfaceVertex> VerticesOf(const std::vector<WorldPoint>& points,
+                                      const Projection& projection) {
+  std::vector<SurfaceVertex> vertices;
+  for (const WorldPoint& point : points) {
+    const PanelPoint p = projection.Project(point);
+    vertices.push_back(
+        {static_cast<float>(p.x), static_cast<float>(-p.y), static_cast<float>(p.depth)});
+  }
+  return vertices;
+}
+
+Geometry GlassOf(const view::DisplaySurface& surface, const Projection& projection) {
+  Geometry geometry;
+  geometry.glass = {VerticesOf(surface.vertices, projection), surface.triangles};
+  geometry.normals = NormalsOf(geometry.glass);
+  return geometry;
+}
+
+absl::StatusOr<RgbImage> ImageOf(const Geometry& geometry, int width, int height,
+                                 const exec::Context& context) {
+  RgbImage image = {width, height, {}};
+  image.pixels.resize(static_cast<size_t>(width) * static_cast<size_t>(height));
+  std::atomic<int> next = 0;
+  context.Offer([&](int) {
+    for (int top; !context.ShouldStop() && (top = kBandRows * next++) < height;) {
+      DrawBand(geometry, top, std::min(kBandRows, height - top), image);
+    }
+  });
+  BCCSKEL_RETURN_IF_ERROR(context.StopStatus());
+  return image;
+}
+
+absl::StatusOr<std::string> PngOf(const RgbImage& image) {
+  std::vector<uint8_t> rgb;
+  rgb.reserve(3 * image.pixels.size());
+  for (const uint32_t pixel : image.pixels) {
+    for (const int shift : {16, 8, 0}) rgb.push_back(static_cast<uint8_t>(pixel >> shift));
+  }
+  png_image head = {};
+  head.version = PNG_IMAGE_VERSION;
+  head.width = static_cast<uint32_t>(image.width);
+  head.height = static_cast<uint32_t>(image.height);
+  head.format = PNG_FORMAT_RGB;
+  std::string png(PNG_IMAGE_PNG_SIZE_MAX(head), '\0');
+  png_alloc_size_t size = png.size();
+  if (png_image_write_to_memory(&head, png.data(), &size, 0, rgb.data(), 0, nullptr) == 0) {
+    return absl::ResourceExhaustedError(head.message);
+  }
+  png.resize(size);
+  return png;
+}
+
+}  // namespace bccskel::exporting
