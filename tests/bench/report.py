@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Measures the engine against its targets and prints the result as markdown.
 
-Needs a release build with -DBCCSKEL_BUILD_BENCHMARKS=ON and docker/packages/bench.txt. Usage:
+Needs a release build and docker/packages/bench.txt. Usage:
   tests/bench/report.py BUILD [--quick] [--large] [--output report.md] [--plot growth.png]
 README.md in this folder says what each figure means.
 """
@@ -11,10 +11,10 @@ import json
 import os
 import pathlib
 import platform
+import random
 import re
 import subprocess
 import sys
-import tempfile
 import time
 
 import numpy
@@ -34,7 +34,6 @@ REFERENCE_SIZES = {"thin-tubes": 10_000, "tubes": 850_000, "tree": 850_000}
 class Programs:
     def __init__(self, build):
         bench = pathlib.Path(build) / "tests" / "bench"
-        self.engine = str(bench / "bccskel_engine_benchmark")
         self.reference = str(bench / "bccskel_reference_digest")
         self.cubic = str(bench / "bccskel_cubic_object")
         self.command = str(pathlib.Path(build) / "client" / "cli" / "bccskel")
@@ -53,32 +52,34 @@ def output_of(*command):
     return subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout
 
 
-def run_engine(programs, pattern, repetitions):
-    with tempfile.NamedTemporaryFile(suffix=".json") as out:
-        subprocess.run(
-            [programs.engine, f"--benchmark_filter={pattern}", f"--benchmark_out={out.name}",
-             "--benchmark_out_format=json", f"--benchmark_repetitions={repetitions}",
-             "--benchmark_enable_random_interleaving=true"],
-            check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        return json.load(open(out.name, encoding="utf-8"))["benchmarks"]
+def bench_core(programs, name, points, threads, *options):
+    return json.loads(output_of(
+        programs.command, "bench", "core", "--shape", name, "--points", str(points),
+        "--threads", str(threads), "--repeat", "1", "--json", *options))
+
+
+def measure_rows(programs, rows, keys, repetitions):
+    """The rows take turns in random order, so that a disturbance affects all of them alike."""
+    turns = keys * repetitions
+    random.shuffle(turns)
+    for key in turns:
+        name, points, threads, isa = key
+        rows.add(key, bench_core(programs, name, points, threads, "--isa", isa))
 
 
 def supported_sets(programs):
-    listed = output_of(programs.engine, "--benchmark_list_tests", "--benchmark_filter=^ball/10000/")
-    sets = [line.split("/")[3] for line in listed.decode().split()]
-    return list(dict.fromkeys(sets))
+    described = output_of(programs.command, "bench", "core", "--help").decode()
+    return re.search(r"--isa (\S+)", described).group(1).split("|")
 
 
 def measure_engine(programs, sizes, repetitions):
-    rows = Rows()
-    rows.sets = supported_sets(programs)
-    compact = "|".join(COMPACT)
+    rows = Rows(supported_sets(programs))
     for points in sizes:
         say(f"engine, {points:,} points")
-        patterns = [f"/{points}/threads:./{rows.best}/"]
+        keys = [(name, points, threads, rows.best) for name in OBJECTS for threads in (1, 2)]
         if 100_000 <= points <= 1_000_000:
-            patterns.append(f"({compact})/{points}/threads:1/")
-        rows.add(run_engine(programs, "|".join(patterns), repetitions[points]))
+            keys += [(name, points, 1, isa) for name in COMPACT for isa in rows.sets[1:]]
+        measure_rows(programs, rows, keys, repetitions[points])
     return rows
 
 
@@ -87,10 +88,9 @@ def measure_under_load(programs, best, repetitions):
     say("engine, beside two busy processes")
     busy = [subprocess.Popen([sys.executable, "-c", "while True: pass"]) for _ in range(2)]
     try:
-        rows = Rows()
-        rows.sets = [best]
-        pattern = f"({'|'.join(COMPACT)})/850000/threads:./{best}/"
-        rows.add(run_engine(programs, pattern, repetitions))
+        rows = Rows([best])
+        keys = [(name, 850_000, threads, best) for name in COMPACT for threads in (1, 2)]
+        measure_rows(programs, rows, keys, repetitions)
         return rows
     finally:
         for process in busy:
@@ -101,9 +101,7 @@ def measure_under_load(programs, best, repetitions):
 def measure_memory(programs, points):
     """A process for each object, so that none finds memory of the one before."""
     say(f"memory, {points:,} points")
-    return {name: json.loads(output_of(
-        programs.command, "bench", "core", "--shape", name, "--points", str(points),
-        "--threads", "1", "--repeat", "1", "--json")) for name in OBJECTS}
+    return {name: bench_core(programs, name, points, 1) for name in OBJECTS}
 
 
 def cubic_object(programs, name, points):
@@ -136,7 +134,7 @@ def check_digests(programs, rows, limit):
     """Each object has one digest in all its rows, and where affordable it is the reference's."""
     checks = []
     for name, points in sorted({key[:2] for key in rows.runs}):
-        digests = {run["label"] for key, runs in rows.runs.items() if key[:2] == (name, points)
+        digests = {run["sha256"] for key, runs in rows.runs.items() if key[:2] == (name, points)
                    for run in runs}
         expected = None
         if points <= min(limit, REFERENCE_SIZES.get(name, limit)):
@@ -200,7 +198,7 @@ def report(arguments):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
-    parser.add_argument("build", help="build folder with -DBCCSKEL_BUILD_BENCHMARKS=ON")
+    parser.add_argument("build", help="folder of a release build")
     parser.add_argument("--quick", action="store_true", help="few repetitions, in three minutes")
     parser.add_argument("--large", action="store_true", help="64M points, too; half an hour")
     parser.add_argument("--output", help="markdown file (default: standard output)")

@@ -15,18 +15,17 @@ Target = collections.namedtuple("Target", "what target measured met")
 class Rows:
     """Repetitions of all rows by (object, points, threads, instruction set)."""
 
-    def __init__(self):
+    def __init__(self, sets):
         self.runs = collections.defaultdict(list)
-        self.sets = []
+        self.sets = sets
 
-    def add(self, benchmarks):
-        for run in benchmarks:
-            if run.get("run_type") != "iteration":
-                continue
-            if "error_occurred" in run:
-                raise RuntimeError(f"{run['name']}: {run['error_message']}")
-            name, points, threads, isa = run["name"].split("/")[:4]
-            self.runs[name, int(points), int(threads.split(":")[1]), isa].append(run)
+    def add(self, key, result):
+        """A result of `bccskel bench core` with one warm run."""
+        self.runs[key].append({
+            "points": result["points"], "sha256": result["sha256"],
+            "ns_per_point": result["ns_per_point"]["median"],
+            "whole_ns_per_point": result["whole_ns_per_point"]["median"],
+            **{f"{stage}_ms": result["stages"][stage]["median"] for stage in STAGES}})
 
     def values(self, name, points, threads=1, isa=None, counter="ns_per_point"):
         return [run[counter] for run in self.runs.get((name, points, threads, isa or self.best), [])]
