@@ -2,15 +2,8 @@
 
 #include <utility>
 
-#include "absl/strings/str_cat.h"
 #include "client/export/atomic_file.h"
-#include "client/export/branch_table.h"
-#include "client/export/glb.h"
-#include "client/export/graphml.h"
 #include "client/export/json.h"
-#include "client/export/markups.h"
-#include "client/export/precomputed.h"
-#include "client/export/vtp.h"
 #include "core/exec/status_macros.h"
 
 namespace bccskel::exporting {
@@ -55,38 +48,6 @@ GraphContext LabeledSkeletons::Context() const {
   return {.labels = labels_, .facts = facts_, .order = OrderOf(graph_, root_)};
 }
 
-std::string LabeledSkeletons::Markups() const {
-  return WriteMarkups(graph_, Context(), world_).text;
-}
-
-absl::StatusOr<std::string> LabeledSkeletons::WritePrecomputedFolder(
-    const std::string& path, const std::stop_token& stop) const {
-  return WritePrecomputed(path, graph_, {.labels = labels_, .world = world_, .sampling = {}}, stop);
-}
-
-namespace {
-
-absl::StatusOr<std::string> BytesOf(SkeletonFormat format, const LabeledSkeletons& skeletons) {
-  switch (format) {
-    case SkeletonFormat::kVtp:
-      return VtpText(skeletons.graph(), skeletons.Context());
-    case SkeletonFormat::kGraphMl:
-      return GraphMlText(skeletons.graph(), skeletons.Context());
-    case SkeletonFormat::kJson:
-      return skeletons.Json();
-    case SkeletonFormat::kCsv:
-      return BranchTableText(skeletons.graph(), skeletons.Context());
-    case SkeletonFormat::kMarkups:
-      return skeletons.Markups();
-    case SkeletonFormat::kGlb:
-      return GlbBytes(skeletons.graph(), skeletons.Context(), skeletons.world());
-    default:
-      return absl::InvalidArgumentError("this format holds one label");
-  }
-}
-
-}  // namespace
-
 bool HoldsManyLabels(SkeletonFormat format) {
   return format == SkeletonFormat::kVtp || format == SkeletonFormat::kGraphMl ||
          format == SkeletonFormat::kJson || format == SkeletonFormat::kCsv ||
@@ -98,13 +59,17 @@ absl::StatusOr<std::string> WriteLabeledFile(const std::string& path,
                                              const LabeledSkeletons& skeletons,
                                              const std::stop_token& stop) {
   BCCSKEL_ASSIGN_OR_RETURN(const SkeletonFormat format, SkeletonFormatOf(path));
-  if (format == SkeletonFormat::kPrecomputed) return skeletons.WritePrecomputedFolder(path, stop);
-  const absl::StatusOr<std::string> bytes = BytesOf(format, skeletons);
-  if (!bytes.ok()) {
-    return absl::Status(bytes.status().code(), absl::StrCat(path, ": ", bytes.status().message()));
+  if (!HoldsManyLabels(format)) {
+    return absl::InvalidArgumentError(path + ": this format holds one label");
   }
-  BCCSKEL_RETURN_IF_ERROR(WriteFileAtomically(path, *bytes, stop));
-  return format == SkeletonFormat::kMarkups ? NoteOn(skeletons.world()) : "";
+  if (format == SkeletonFormat::kJson) {
+    BCCSKEL_RETURN_IF_ERROR(WriteFileAtomically(path, skeletons.Json(), stop));
+    return std::string();
+  }
+  return WriteGraphFile(
+      path,
+      {.graph = skeletons.graph(), .context = skeletons.Context(), .world = skeletons.world()},
+      stop);
 }
 
 }  // namespace bccskel::exporting

@@ -30,10 +30,6 @@ class LabeledSkeletons {
   GraphContext Context() const;
   // {"labels": [{"label", "voxels", "skeleton"}, ...]}, each skeleton as JsonText() writes it.
   std::string Json() const { return "{\n\"labels\":[" + json_ + "\n]\n}\n"; }
-  std::string Markups() const;
-  // Errors: those of WritePrecomputed().
-  absl::StatusOr<std::string> WritePrecomputedFolder(const std::string& path,
-                                                     const std::stop_token& stop) const;
   const World& world() const { return world_; }
 
  private:
@@ -49,7 +45,7 @@ class LabeledSkeletons {
 bool HoldsManyLabels(SkeletonFormat format);
 
 // Returns what the format could not hold, as a sentence for the user; empty if it held everything.
-// Errors: INVALID_ARGUMENT for a format that holds one label only; as WriteFileAtomically().
+// Errors: INVALID_ARGUMENT for a format that holds one label only; as WriteGraphFile().
 absl::StatusOr<std::string> WriteLabeledFile(const std::string& path,
                                              const LabeledSkeletons& skeletons,
                                              const std::stop_token& stop = {});

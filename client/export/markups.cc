@@ -8,7 +8,6 @@
 #include "client/export/branch_name.h"
 #include "client/export/picture/escape.h"
 #include "client/export/sampled_curve.h"
-#include "client/export/text.h"
 #include "core/lattice/length_unit.h"
 #include "core/skeleton/skeleton_figures.h"
 
@@ -92,8 +91,7 @@ void AddCurve(Text& text, const SkeletonGraph& graph, size_t n, const GraphConte
       "\"propertiesLabelVisibility\":false,\"glyphScale\":0.5,\"lineThickness\":0.5}}");
 }
 
-}  // namespace
-
+// Empty for RAS and LPS in mm.
 std::string NoteOn(const World& world) {
   std::string note;
   if (IsTurned(world)) {
@@ -109,10 +107,9 @@ std::string NoteOn(const World& world) {
   return note + (both ? "; " : "") + on_unit;
 }
 
-MarkupsDocument WriteMarkups(const SkeletonGraph& graph, const GraphContext& context,
-                             const World& world) {
-  MarkupsDocument document;
-  document.note = NoteOn(world);
+}  // namespace
+
+Document WriteMarkups(const SkeletonGraph& graph, const GraphContext& context, const World& world) {
   Text text;
   text.Add("{\"@schema\":\"", kSchema, "\",\n\"markups\":[");
   for (size_t n = 0; n < graph.edges.size(); ++n) {
@@ -120,8 +117,7 @@ MarkupsDocument WriteMarkups(const SkeletonGraph& graph, const GraphContext& con
     AddCurve(text, graph, n, context, world);
   }
   text.Add("\n]}\n");
-  document.text = std::move(text).Take();
-  return document;
+  return {std::move(text).Take(), NoteOn(world)};
 }
 
 }  // namespace bccskel::exporting

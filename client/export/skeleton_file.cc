@@ -80,11 +80,6 @@ absl::Status CheckFinite(const SkeletonGraph& graph) {
              : absl::InvalidArgumentError("the skeleton's coordinates do not fit a double");
 }
 
-struct Document {
-  std::string bytes;
-  std::string note;
-};
-
 absl::StatusOr<Document> WithoutNote(absl::StatusOr<std::string> bytes) {
   if (!bytes.ok()) return std::move(bytes).status();
   return Document{*std::move(bytes), ""};
@@ -121,10 +116,8 @@ std::optional<absl::StatusOr<Document>> ComposeGraph(SkeletonFormat format,
                                                      const GraphSubject& subject) {
   const auto& [graph, context, world, sampling] = subject;
   switch (format) {
-    case SkeletonFormat::kSwc: {
-      SwcDocument swc = WriteSwc(graph, context.order, {sampling, world});
-      return Document{std::move(swc.text), std::move(swc.note)};
-    }
+    case SkeletonFormat::kSwc:
+      return WriteSwc(graph, context.order, {sampling, world});
     case SkeletonFormat::kVtp:
       return WithoutNote(VtpText(graph, context));
     case SkeletonFormat::kGraphMl:
@@ -133,10 +126,8 @@ std::optional<absl::StatusOr<Document>> ComposeGraph(SkeletonFormat format,
       return WithoutNote(ObjText(graph));
     case SkeletonFormat::kCsv:
       return WithoutNote(BranchTableText(graph, context));
-    case SkeletonFormat::kMarkups: {
-      MarkupsDocument markups = WriteMarkups(graph, context, world);
-      return Document{std::move(markups.text), std::move(markups.note)};
-    }
+    case SkeletonFormat::kMarkups:
+      return WriteMarkups(graph, context, world);
     case SkeletonFormat::kGlb:
       return WithoutNote(GlbBytes(graph, context, world));
     default:
@@ -144,11 +135,24 @@ std::optional<absl::StatusOr<Document>> ComposeGraph(SkeletonFormat format,
   }
 }
 
+// Needs: JSON, or a format that shows the object.
+absl::StatusOr<std::string> Compose(const std::string& path, SkeletonFormat format,
+                                    const Subject& subject) {
+  if (format == SkeletonFormat::kSvg) return SvgText(subject);
+  if (format == SkeletonFormat::kHtml) return PageText(subject);
+  if (format == SkeletonFormat::kJson) {
+    return JsonText(subject.result, OrderOf(subject), subject.world);
+  }
+  if (subject.draw != nullptr) return subject.draw(subject);
+  return absl::UnimplementedError(path + ": this program draws no pictures; write an .svg, or " +
+                                  "draw a .json file with `bccskel render`");
+}
+
 absl::StatusOr<std::string> WriteDocument(const std::string& path,
                                           const absl::StatusOr<Document>& document,
                                           const std::stop_token& stop) {
   BCCSKEL_RETURN_IF_ERROR(document.status());
-  BCCSKEL_RETURN_IF_ERROR(WriteFileAtomically(path, document->bytes, stop));
+  BCCSKEL_RETURN_IF_ERROR(WriteFileAtomically(path, document->text, stop));
   return document->note;
 }
 
@@ -200,19 +204,7 @@ absl::StatusOr<std::string> WriteSkeletonFile(const std::string& path, const Sub
   const std::stop_token& stop = subject.context.stop;
   if (format == SkeletonFormat::kJson || ShowsObject(format)) {
     BCCSKEL_RETURN_IF_ERROR(CheckFinite(graph));
-    if (format == SkeletonFormat::kSvg)
-      return WriteDocument(path, WithoutNote(SvgText(subject)), stop);
-    if (format == SkeletonFormat::kPng && subject.draw == nullptr) {
-      return absl::UnimplementedError(path +
-                                      ": this program draws no pictures; write an .svg, or " +
-                                      "draw a .json file with `bccskel render`");
-    }
-    if (format == SkeletonFormat::kPng)
-      return WriteDocument(path, WithoutNote(subject.draw(subject)), stop);
-    if (format == SkeletonFormat::kHtml)
-      return WriteDocument(path, WithoutNote(PageText(subject)), stop);
-    return WriteDocument(
-        path, WithoutNote(JsonText(subject.result, OrderOf(subject), subject.world)), stop);
+    return WriteDocument(path, WithoutNote(Compose(path, format, subject)), stop);
   }
   return WriteGraphFile(path,
                         {.graph = graph,
@@ -229,8 +221,9 @@ absl::StatusOr<std::string> WriteGraphFile(const std::string& path, const GraphS
   BCCSKEL_ASSIGN_OR_RETURN(const SkeletonFormat format, SkeletonFormatOf(path));
   BCCSKEL_RETURN_IF_ERROR(CheckFinite(subject.graph));
   if (format == SkeletonFormat::kPrecomputed) {
-    return WritePrecomputed(path, subject.graph,
-                            {.labels = {}, .world = subject.world, .sampling = subject.swc}, stop);
+    return WritePrecomputed(
+        path, subject.graph,
+        {.labels = subject.context.labels, .world = subject.world, .sampling = subject.swc}, stop);
   }
   const auto document = ComposeGraph(format, subject);
   if (document.has_value()) return WriteDocument(path, *document, stop);

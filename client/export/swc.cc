@@ -8,7 +8,6 @@
 
 #include "client/export/picture/escape.h"
 #include "client/export/point_forest.h"
-#include "client/export/text.h"
 
 namespace bccskel::exporting {
 namespace {
@@ -114,23 +113,21 @@ void AddRow(Text& text, size_t row, SwcType type, const PointForest::Point& poin
 
 }  // namespace
 
-SwcDocument WriteSwc(const SkeletonGraph& graph, const std::optional<TreeOrder>& order,
-                     const SwcOptions& options) {
+Document WriteSwc(const SkeletonGraph& graph, const std::optional<TreeOrder>& order,
+                  const SwcOptions& options) {
   const PointForest forest = PointForestOf(
       graph, order.has_value() ? *order : OrderTrees(graph, {RootChoice::Rule::kDeepestNode}),
       options.sampling);
-  SwcDocument document;
-  document.note = NoteOf(graph, forest);
+  std::string note = NoteOf(graph, forest);
   Text text;
   const Roots roots = RootsOf(order);
-  AddHeader(text, forest, options, roots, document.note);
+  AddHeader(text, forest, options, roots, note);
   const std::optional<int> decimals = DecimalsFor(graph.placement);
   for (size_t n = 0; n < forest.points.size(); ++n) {
     const PointForest::Point& point = forest.points[n];
     AddRow(text, n, TypeOf(graph, point, roots), point, decimals);
   }
-  document.text = std::move(text).Take();
-  return document;
+  return {std::move(text).Take(), std::move(note)};
 }
 
 }  // namespace bccskel::exporting

@@ -2,21 +2,14 @@
 #define BCCSKEL_CLIENT_EXPORT_SWC_H_
 
 #include <optional>
-#include <string>
 
 #include "client/export/point_forest.h"
+#include "client/export/text.h"
 #include "client/export/world.h"
 #include "core/skeleton/skeleton_graph.h"
 #include "core/skeleton/tree_order.h"
 
 namespace bccskel::exporting {
-
-struct SwcDocument {
-  std::string text;
-  // What was left out because the format cannot show it, as a sentence for the user; empty if
-  // nothing.
-  std::string note;
-};
 
 struct SwcOptions {
   CurveSampling sampling = {};
@@ -27,9 +20,8 @@ struct SwcOptions {
 // the order, or else from the deepest node of each component.
 // Types: 1 the roots of an order of thickest nodes, 6 end, 5 junction, 0 everything else. World
 // coordinates and units, rounded to a ten-thousandth of the smallest spacing.
-SwcDocument WriteSwc(const SkeletonGraph& graph,
-                     const std::optional<TreeOrder>& order = std::nullopt,
-                     const SwcOptions& options = {});
+Document WriteSwc(const SkeletonGraph& graph, const std::optional<TreeOrder>& order = std::nullopt,
+                  const SwcOptions& options = {});
 
 }  // namespace bccskel::exporting
 

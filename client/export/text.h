@@ -89,6 +89,13 @@ class Text {
   size_t used_ = 0;
 };
 
+// A file, and what its format could not hold, as a sentence for the user; empty if it held
+// everything.
+struct Document {
+  std::string text;
+  std::string note;
+};
+
 }  // namespace bccskel::exporting
 
 #endif  // BCCSKEL_CLIENT_EXPORT_TEXT_H_

@@ -96,7 +96,7 @@ TEST(GlbTest, NothingIsAnEmptyScene) {
 
 TEST(MarkupsTest, HasACurvePerBranch) {
   const SkeletonGraph graph = Lollipop();
-  const MarkupsDocument document = WriteMarkups(graph, {}, {.axes = "RAS", .unit = "mm"});
+  const Document document = WriteMarkups(graph, {}, {.axes = "RAS", .unit = "mm"});
   EXPECT_THAT(document.note, IsEmpty());
   const Json markups = Json::parse(document.text)["markups"];
   ASSERT_EQ(markups.size(), 2);
@@ -109,7 +109,7 @@ TEST(MarkupsTest, HasACurvePerBranch) {
 }
 
 TEST(MarkupsTest, ALoopWithoutJunctionIsAClosedCurve) {
-  const MarkupsDocument document = WriteMarkups(SampleOf(Shape::kTorus).result.graph, {}, {});
+  const Document document = WriteMarkups(SampleOf(Shape::kTorus).result.graph, {}, {});
   EXPECT_THAT(document.note, HasSubstr("written as LPS"));
   const Json curve = Json::parse(document.text)["markups"][0];
   EXPECT_EQ(curve["type"], "ClosedCurve");
@@ -121,7 +121,7 @@ TEST(MarkupsTest, AreInMillimetersAsSlicersImagesAre) {
   const Json plain =
       Json::parse(WriteMarkups(Lollipop(), {}, {.axes = "RAS", .unit = "mm"}).text)["markups"][1];
   for (const auto& [unit, factor] : units) {
-    const MarkupsDocument document = WriteMarkups(Lollipop(), {}, {.axes = "RAS", .unit = unit});
+    const Document document = WriteMarkups(Lollipop(), {}, {.axes = "RAS", .unit = unit});
     const Json curve = Json::parse(document.text)["markups"][1];
     EXPECT_EQ(curve["coordinateUnits"], "mm");
     const double mm = factor;  // clang 14 captures no structured binding
@@ -145,7 +145,7 @@ TEST(MarkupsTest, AreInMillimetersAsSlicersImagesAre) {
 }
 
 TEST(MarkupsTest, SayThatAnUnknownUnitIsTakenForMillimeters) {
-  const MarkupsDocument document = WriteMarkups(Lollipop(), {}, {.axes = "LPS", .unit = ""});
+  const Document document = WriteMarkups(Lollipop(), {}, {.axes = "LPS", .unit = ""});
   EXPECT_THAT(document.note, HasSubstr("taken for millimeters"));
   EXPECT_FALSE(Json::parse(document.text)["markups"][0].contains("coordinateUnits"));
   EXPECT_THAT(WriteMarkups(Lollipop(), {}, {.axes = "", .unit = "pixel"}).note,
@@ -158,7 +158,7 @@ TEST(MarkupsTest, EscapeTheUnit) {
 }
 
 TEST(MarkupsTest, TurnAWorldThatSlicerDoesNotKnow) {
-  const MarkupsDocument document = WriteMarkups(Lollipop(), {}, {.axes = "LAS", .unit = "mm"});
+  const Document document = WriteMarkups(Lollipop(), {}, {.axes = "LAS", .unit = "mm"});
   EXPECT_THAT(document.note, HasSubstr("LAS"));
   const Json markups = Json::parse(document.text)["markups"];
   EXPECT_EQ(markups[0]["coordinateSystem"], "RAS");

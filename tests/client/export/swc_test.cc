@@ -206,7 +206,7 @@ TEST(SwcTest, TellsWorldAndUnit) {
 }
 
 TEST(SwcTest, CutsALoopOnceAndSaysSo) {
-  const SwcDocument document = WriteSwc(Lollipop(), std::nullopt, {.sampling = {.step = 0}});
+  const Document document = WriteSwc(Lollipop(), std::nullopt, {.sampling = {.step = 0}});
   EXPECT_EQ(RowsOf(document.text).size(), 6);
   EXPECT_EQ(RootsOf(RowsOf(document.text)), 2);
   EXPECT_THAT(document.note, HasSubstr("1 loop cut"));
