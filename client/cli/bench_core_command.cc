@@ -81,13 +81,8 @@ std::string Json(const BenchCoreArguments& arguments, int threads,
            ",\"whole_ns_per_point\":", SpreadJson(WarmSpread(measured, kWhole.of, ns)));
   text.Add(",\"cold\":{\"ns_per_point\":", absl::StrFormat("%.6g", ns * kCore.of(measured.cold)),
            ",\"whole_ns_per_point\":", absl::StrFormat("%.6g", ns * kWhole.of(measured.cold)),
-           "},\"stages\":", StagesJson(measured), ",\"peak_bytes\":");
-  if (measured.peak_bytes.has_value()) {
-    text.Add(*measured.peak_bytes);
-  } else {
-    text.Add("null");
-  }
-  text.Add(",\"sha256\":\"", measured.sha256, "\"}\n");
+           "},\"stages\":", StagesJson(measured), ",\"peak_bytes\":", measured.peak_bytes,
+           ",\"sha256\":\"", measured.sha256, "\"}\n");
   return std::move(text).Take();
 }
 

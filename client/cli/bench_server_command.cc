@@ -29,6 +29,10 @@
 #include "proto/wire/error_details.h"
 
 namespace bccskel::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
 
 // Times of one call.
 struct ServedCall {
@@ -53,29 +57,6 @@ struct TimeShare {
   const char* name;
   std::function<std::chrono::nanoseconds(const ServedCall&)> of;
 };
-// In the order in which they begin. Decoding overlaps with the upload; "rest" is neither upload,
-// stage nor download: the end of decoding, the queue, handover and the check.
-std::vector<TimeShare> SharesOfCalls();
-
-// The median over the calls. Needs: at least one call.
-std::chrono::nanoseconds MedianOf(const ServerMeasurement& measured, const TimeShare& share);
-
-// The latency that `share` (0 to 1) of the calls did not exceed. Needs: at least one call.
-std::chrono::nanoseconds Percentile(const ServerMeasurement& measured, double share);
-
-// Each client has its own connection and sends `volume` with `options` again as soon as it has the
-// skeleton, which it checks as usual. The first call of each client does not count.
-// Errors: of the first call that fails with anything but UNAVAILABLE with a delay.
-absl::StatusOr<ServerMeasurement> MeasureServer(const client::Endpoint& endpoint,
-                                                const client::EncodedVolume& volume,
-                                                const SkeletonizeOptions& options, int clients,
-                                                std::chrono::milliseconds duration,
-                                                const std::stop_token& stop);
-
-namespace {
-
-using Clock = std::chrono::steady_clock;
-using std::chrono::milliseconds;
 
 // The measurements of one client.
 struct Share {
@@ -145,8 +126,8 @@ absl::StatusOr<std::vector<std::unique_ptr<Client>>> Connect(const client::Endpo
   return all;
 }
 
-}  // namespace
-
+// In the order in which they begin. Decoding overlaps with the upload; "rest" is neither upload,
+// stage nor download: the end of decoding, the queue, handover and the check.
 std::vector<TimeShare> SharesOfCalls() {
   std::vector<TimeShare> shares = {
       {"upload", [](const ServedCall& call) { return call.way.upload; }},
@@ -164,6 +145,7 @@ std::vector<TimeShare> SharesOfCalls() {
   return shares;
 }
 
+// The median over the calls. Needs: at least one call.
 std::chrono::nanoseconds MedianOf(const ServerMeasurement& measured, const TimeShare& share) {
   std::vector<std::chrono::nanoseconds> values;
   for (const ServedCall& call : measured.calls) values.push_back(share.of(call));
@@ -172,11 +154,15 @@ std::chrono::nanoseconds MedianOf(const ServerMeasurement& measured, const TimeS
   return *middle;
 }
 
+// The latency that `share` (0 to 1) of the calls did not exceed. Needs: at least one call.
 std::chrono::nanoseconds Percentile(const ServerMeasurement& measured, double share) {
   const auto last = static_cast<double>(measured.calls.size() - 1);
   return measured.calls[static_cast<size_t>(share * last + 0.5)].latency;
 }
 
+// Each client has its own connection and sends `volume` with `options` again as soon as it has the
+// skeleton, which it checks as usual. The first call of each client does not count.
+// Errors: of the first call that fails with anything but UNAVAILABLE with a delay.
 absl::StatusOr<ServerMeasurement> MeasureServer(const client::Endpoint& endpoint,
                                                 const client::EncodedVolume& volume,
                                                 const SkeletonizeOptions& options, int clients,
@@ -203,8 +189,6 @@ absl::StatusOr<ServerMeasurement> MeasureServer(const client::Endpoint& endpoint
   std::ranges::sort(measured.calls, {}, &ServedCall::latency);
   return measured;
 }
-
-namespace {
 
 double Milliseconds(std::chrono::nanoseconds time) {
   return std::chrono::duration<double, std::milli>(time).count();

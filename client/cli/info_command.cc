@@ -29,6 +29,12 @@
 #include "core/io/volume_file.h"
 
 namespace bccskel::cli {
+namespace {
+
+using exporting::Counted;
+using exporting::Text;
+
+constexpr size_t kMostLabels = 1 << 16;
 
 // The voxel values of an image.
 struct ImageValues {
@@ -43,21 +49,6 @@ struct ImageValues {
   // or beyond kMostLabels values: they are then not labels.
   std::optional<std::map<uint64_t, uint64_t>> labels;
 };
-inline constexpr size_t kMostLabels = 1 << 16;
-
-// Errors: as OpenImage() and NextSlice(), with the path; CANCELLED.
-absl::StatusOr<ImageValues> ReadImageValues(const std::string& path, const ImageOptions& options,
-                                            const exec::Context& context);
-
-// "values:      0 to 3\nlabels:      1 (80 voxels), 3 (12 voxels)\n"; and the same as members of a
-// JSON object.
-std::string ValuesText(const ImageValues& values);
-std::string ValuesJson(const ImageValues& values);
-
-namespace {
-
-using exporting::Counted;
-using exporting::Text;
 
 class Survey {
  public:
@@ -133,8 +124,7 @@ std::string NumberJson(long double value, VoxelType type) {
   return std::isfinite(value) ? NumberText(value, type) : '"' + NumberText(value, type) + '"';
 }
 
-}  // namespace
-
+// Errors: as OpenImage() and NextSlice(), with the path; CANCELLED.
 absl::StatusOr<ImageValues> ReadImageValues(const std::string& path, const ImageOptions& options,
                                             const exec::Context& context) {
   absl::StatusOr<ImageValues> values = Read(path, options, context);
@@ -142,6 +132,8 @@ absl::StatusOr<ImageValues> ReadImageValues(const std::string& path, const Image
   return values;
 }
 
+// "values:      0 to 3\nlabels:      1 (80 voxels), 3 (12 voxels)\n"; and the same as members of a
+// JSON object.
 std::string ValuesText(const ImageValues& values) {
   constexpr size_t kShown = 10;
   Text text;
@@ -185,8 +177,6 @@ std::string ValuesJson(const ImageValues& values) {
   }
   return std::move(text.Add(']')).Take();
 }
-
-namespace {
 
 std::string Wrapped(const InfoArguments& arguments, const std::string& kind,
                     const std::string& json) {

@@ -18,13 +18,8 @@ using client::DurableClient, client::JobState;
 constexpr std::chrono::minutes kShortCall(1);
 constexpr std::chrono::seconds kLastCall(3);  // after Ctrl-C
 
-void AddTime(exporting::Text& text, const char* key, const std::optional<client::Time>& time) {
-  text.Add(",\"", key, "\":");
-  if (time.has_value()) {
-    text.Add(JsonString(TimeText(*time)));
-  } else {
-    text.Add("null");
-  }
+std::string TimeJson(const std::optional<client::Time>& time) {
+  return time.has_value() ? JsonString(TimeText(*time)) : "null";
 }
 
 absl::Status StatusOf(JobState state, const absl::Status& error) {
@@ -68,12 +63,10 @@ std::string JobJson(const client::DurableJob& job) {
   text.Add("{\"job\":", JsonString(job.name), ",\"state\":", JsonString(NameOf(job.state)),
            ",\"request_id\":", JsonString(job.request_id), ",\"volume\":", JsonString(job.volume),
            ",\"attempts\":", job.attempts, ",\"result_bytes\":", job.result_bytes,
-           ",\"message\":", JsonString(std::string(job.error.message())));
-  AddTime(text, "created", job.created);
-  AddTime(text, "started", job.started);
-  AddTime(text, "ended", job.ended);
-  AddTime(text, "expires", job.expires);
-  return std::move(text.Add("}")).Take();
+           ",\"message\":", JsonString(std::string(job.error.message())),
+           ",\"created\":", TimeJson(job.created), ",\"started\":", TimeJson(job.started),
+           ",\"ended\":", TimeJson(job.ended), ",\"expires\":", TimeJson(job.expires), '}');
+  return std::move(text).Take();
 }
 
 std::string JobSummary(const CommonArguments& common, const client::DurableJob& job) {

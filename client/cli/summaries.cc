@@ -49,29 +49,26 @@ void AddTriple(Text& text, const std::array<double, 3>& values) {
 }
 
 // JSON has no infinities.
-void AddNumberOrNull(Text& text, double value) {
-  if (std::isfinite(value)) {
-    text.Add(value);
-  } else {
-    text.Add("null");
-  }
+std::optional<double> Finite(double value) {
+  return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-void AddGenus(Text& text, const std::optional<int64_t>& genus) {
-  if (genus.has_value()) {
-    text.Add(*genus);
-  } else {
-    text.Add("null");
-  }
+std::optional<BettiNumbers> BettiOf(const MeshReport& report) {
+  const std::optional<SolidTopology> solid = report.SolidByWinding();
+  if (!solid.has_value()) return std::nullopt;
+  return BettiNumbers{solid->components, solid->loops, solid->cavities};
 }
 
-void AddSolid(Text& text, const std::optional<SolidTopology>& solid) {
-  if (!solid.has_value()) {
-    text.Add("null");
-    return;
-  }
-  text.Add("{\"components\":", solid->components, ",\"loops\":", solid->loops,
-           ",\"cavities\":", solid->cavities, '}');
+// The axes of the grid in the world, to four digits; "" where they are the world's.
+std::string DirectionLine(const Placement& placement) {
+  if (placement.direction == Placement().direction) return "";
+  const auto& d = placement.direction;
+  return absl::StrFormat("direction:   %.4g %.4g %.4g, %.4g %.4g %.4g, %.4g %.4g %.4g\n", d[0],
+                         d[3], d[6], d[1], d[4], d[7], d[2], d[5], d[8]);
+}
+
+void AddGrid(Text& text, const ImageInfo& info) {
+  text.Add(info.size.nx, " x ", info.size.ny, " x ", info.size.nz, ' ', VoxelTypeName(info.type));
 }
 
 std::string_view JsonBool(bool value) { return value ? "true" : "false"; }
@@ -98,9 +95,8 @@ std::string MeshText(const MeshReport& report) {
            '\n');
   text.Add("components:  ", report.components.size(), '\n');
   if (report.genus.has_value()) text.Add("genus:       ", *report.genus, '\n');
-  if (const auto solid = report.SolidByWinding(); solid.has_value()) {
-    text.Add("solid:       ",
-             exporting::BettiPhrase({solid->components, solid->loops, solid->cavities}), '\n');
+  if (const auto solid = BettiOf(report); solid.has_value()) {
+    text.Add("solid:       ", exporting::BettiPhrase(*solid), '\n');
   }
   text.Add("box:         ");
   AddTriple(text, report.lower);
@@ -111,6 +107,7 @@ std::string MeshText(const MeshReport& report) {
 }
 
 std::string MeshJson(const MeshReport& report) {
+  const std::optional<BettiNumbers> solid = BettiOf(report);
   Text text;
   text.Add("{\"vertices\":", report.vertices, ",\"triangles\":", report.triangles,
            ",\"dropped_triangles\":", report.dropped_triangles,
@@ -119,13 +116,9 @@ std::string MeshJson(const MeshReport& report) {
            ",\"misoriented_edges\":", report.misoriented_edges, ",\"closure\":\"",
            ClosureName(report.closure), "\",\"watertight\":", JsonBool(report.watertight()),
            ",\"consistently_oriented\":", JsonBool(report.consistently_oriented()),
-           ",\"components\":", report.components.size(), ",\"genus\":");
-  AddGenus(text, report.genus);
-  text.Add(",\"solid\":");
-  AddSolid(text, report.SolidByWinding());
-  text.Add(",\"volume\":");
-  AddNumberOrNull(text, report.volume);
-  text.Add(",\"box\":[");
+           ",\"components\":", report.components.size(), ",\"genus\":", report.genus,
+           ",\"solid\":", solid.has_value() ? exporting::BettiJson(*solid) : "null",
+           ",\"volume\":", Finite(report.volume), ",\"box\":[");
   AddTriple(text, report.lower);
   text.Add(',');
   AddTriple(text, report.upper);
@@ -192,42 +185,6 @@ std::string FillRuleName(FillRule rule) {
   return "";  // not reached: the enumerators are exhausted above
 }
 
-namespace {
-
-using exporting::GroupedDigits;
-using exporting::Text;
-
-template <typename Values>
-void AddList(Text& text, const Values& values) {
-  char separator = '[';
-  for (const double value : values) {
-    text.Add(separator, value);
-    separator = ',';
-  }
-  text.Add(']');
-}
-
-// The axes of the grid in the world, to four digits; "" where they are the world's.
-std::string DirectionLine(const Placement& placement) {
-  if (placement.direction == Placement().direction) return "";
-  const auto& d = placement.direction;
-  return absl::StrFormat("direction:   %.4g %.4g %.4g, %.4g %.4g %.4g, %.4g %.4g %.4g\n", d[0],
-                         d[3], d[6], d[1], d[4], d[7], d[2], d[5], d[8]);
-}
-
-}  // namespace
-
-std::string PlacementJson(const Placement& placement) {
-  Text text;
-  text.Add("\"spacing\":");
-  AddList(text, placement.spacing);
-  text.Add(",\"origin\":");
-  AddList(text, placement.origin);
-  text.Add(",\"direction\":");
-  AddList(text, placement.direction);
-  return std::move(text).Take();
-}
-
 std::string VolumeText(const Volume& volume, const std::optional<BettiNumbers>& betti) {
   const LatticeExtent& extent = volume.extent();
   const Placement& placement = volume.placement();
@@ -247,23 +204,12 @@ std::string VolumeJson(const Volume& volume, const std::optional<BettiNumbers>& 
   const LatticeExtent& extent = volume.extent();
   Text text;
   text.Add("{\"extent\":[", extent.nx, ',', extent.ny, ',', extent.nz, "],",
-           PlacementJson(volume.placement()));
+           exporting::PlacementJson(volume.placement()));
   text.Add(",\"points\":", volume.PointCount(), ",\"bricks\":", volume.brick_count());
   if (betti.has_value()) text.Add(",\"topology\":", exporting::BettiJson(*betti));
   text.Add('}');
   return std::move(text).Take();
 }
-
-namespace {
-
-using exporting::GroupedDigits;
-using exporting::Text;
-
-void AddGrid(Text& text, const ImageInfo& info) {
-  text.Add(info.size.nx, " x ", info.size.ny, " x ", info.size.nz, ' ', VoxelTypeName(info.type));
-}
-
-}  // namespace
 
 std::string ImagePhrase(const ImageStage& image) {
   Text text;
@@ -293,7 +239,7 @@ std::string ImageJson(const ImageStage& image, const std::string& members) {
   Text text;
   text.Add("{\"format\":", JsonString(info.format), ",\"size\":[", info.size.nx, ',', info.size.ny,
            ',', info.size.nz, "],\"type\":", JsonString(VoxelTypeName(info.type)), ',',
-           PlacementJson(info.placement), ",\"unit\":", JsonString(info.unit),
+           exporting::PlacementJson(info.placement), ",\"unit\":", JsonString(info.unit),
            ",\"world\":", JsonString(info.world), ",\"voxels\":", image.voxels,
            ",\"topology\":", exporting::BettiJson(image.mask),
            ",\"warnings\":", JsonStrings(image.warnings));

@@ -35,9 +35,6 @@ std::string FillRuleName(FillRule rule);
 std::string VolumeText(const Volume& volume, const std::optional<BettiNumbers>& betti);
 std::string VolumeJson(const Volume& volume, const std::optional<BettiNumbers>& betti);
 
-// "spacing":[...],"origin":[...],"direction":[...]
-std::string PlacementJson(const Placement& placement);
-
 // "NIfTI-1, 101 x 101 x 41 uint8, 50,899 voxels".
 std::string ImagePhrase(const ImageStage& image);
 

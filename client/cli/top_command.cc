@@ -17,6 +17,9 @@
 #include "core/exec/status_macros.h"
 
 namespace bccskel::cli {
+namespace {
+
+using client::ServerStatus;
 
 // A server's activity per second between two queries.
 struct TopRates {
@@ -25,17 +28,6 @@ struct TopRates {
   double points = 0;
   double processors = 0;  // processor seconds per second
 };
-
-TopRates RatesBetween(const client::ServerStatus& before, const client::ServerStatus& after);
-
-// A screen of text, and a line of JSON. Without rates there was only one query.
-std::string TopText(const std::string& address, const client::ServerStatus& status,
-                    const std::optional<TopRates>& rates);
-std::string TopJson(const client::ServerStatus& status, const std::optional<TopRates>& rates);
-
-namespace {
-
-using client::ServerStatus;
 
 double InSeconds(std::chrono::nanoseconds time) {
   return std::chrono::duration<double>(time).count();
@@ -85,8 +77,6 @@ std::string StoredJson(const ServerStatus::Stored& stored) {
       stored.queued_jobs, stored.running_jobs);
 }
 
-}  // namespace
-
 TopRates RatesBetween(const ServerStatus& before, const ServerStatus& after) {
   const double seconds = InSeconds(after.uptime - before.uptime);
   const auto rate = [&](uint64_t ServerStatus::*sum) {
@@ -102,6 +92,7 @@ TopRates RatesBetween(const ServerStatus& before, const ServerStatus& after) {
   return rates;
 }
 
+// A screen of text, and a line of JSON. Without rates there was only one query.
 std::string TopText(const std::string& address, const ServerStatus& status,
                     const std::optional<TopRates>& rates) {
   std::string text =
@@ -147,8 +138,6 @@ std::string TopJson(const ServerStatus& status, const std::optional<TopRates>& r
   absl::StrAppend(&json, "}\n");
   return json;
 }
-
-namespace {
 
 constexpr std::chrono::milliseconds kPatience = std::chrono::seconds(10);
 

@@ -145,17 +145,6 @@ void AddSheets(Text& text, const SkeletonGraph& graph, RadiusTexts& radii) {
   text.Add('}');
 }
 
-void AddPlacement(Text& text, const Placement& placement) {
-  const auto add = [&](double value) { text.Add(value); };
-  text.Add("{\"spacing\":");
-  AddList(text, ",", placement.spacing, add);
-  text.Add(",\"origin\":");
-  AddList(text, ",", placement.origin, add);
-  text.Add(",\"direction\":");
-  AddList(text, ",", placement.direction, add);
-  text.Add('}');
-}
-
 void AddOrder(Text& text, const TreeOrder& order) {
   text.Add(",\n\"order\":{\"roots\":");
   AddList(text, ",", order.roots, [&](uint32_t root) { text.Add(root); });
@@ -214,9 +203,8 @@ std::string JsonText(const SkeletonizeResult& result, const std::optional<TreeOr
            ",\n\"preparing\":", PreparingJson(result.preparing), ",\n\"notes\":");
   AddList(text, ",\n", NotesOn(result),
           [&](const std::string& note) { text.Add(JsonString(note)); });
-  text.Add(",\n\"placement\":");
-  AddPlacement(text, graph.placement);
-  text.Add(",\n\"world\":", JsonString(OrUnknown(world.axes)),
+  text.Add(",\n\"placement\":{", PlacementJson(graph.placement),
+           "},\n\"world\":", JsonString(OrUnknown(world.axes)),
            ",\n\"unit\":", JsonString(OrUnknown(world.unit)),
            ",\n\"object_points\":", result.object_points, ",\n\"timings\":");
   AddTimings(text, result.timings);

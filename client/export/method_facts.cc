@@ -64,6 +64,19 @@ std::string PreparingJson(const std::vector<PreparingStep>& steps) {
   return std::move(text.Add(']')).Take();
 }
 
+std::string PlacementJson(const Placement& placement) {
+  Text text;
+  const auto add = [&](std::string_view name, const auto& values) {
+    text.Add(name);
+    for (const double& value : values) text.Add(&value == values.data() ? '[' : ',', value);
+    text.Add(']');
+  };
+  add("\"spacing\":", placement.spacing);
+  add(",\"origin\":", placement.origin);
+  add(",\"direction\":", placement.direction);
+  return std::move(text).Take();
+}
+
 std::string BettiJson(const BettiNumbers& betti) {
   Text text;
   text.Add("{\"components\":", betti.components, ",\"loops\":", betti.loops,

@@ -24,6 +24,9 @@ MethodFacts MethodFactsOf(const view::ResultGraph& result);
 std::string OptionsJson(const SkeletonizeOptions& options);
 std::string PreparingJson(const std::vector<PreparingStep>& steps);
 
+// Members of an object: "spacing":[...],"origin":[...],"direction":[...]
+std::string PlacementJson(const Placement& placement);
+
 // An object of three numbers, and an object with those of mask, object and skeleton.
 std::string BettiJson(const BettiNumbers& betti);
 std::string CertificateJson(const Certificate& certificate);

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <concepts>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -13,7 +14,7 @@
 namespace bccskel::exporting {
 
 // Builds a text file. Numbers are written in the shortest form that reads back to the same value,
-// whatever the locale, so equal skeletons give equal bytes.
+// whatever the locale, so equal skeletons give equal bytes. Values that are not there are "null".
 class Text {
  public:
   template <typename... Parts>
@@ -58,6 +59,10 @@ class Text {
     if constexpr (std::floating_point<Number>) end = WriteHalf(number, begin);
     if (end == nullptr) end = std::to_chars(begin, begin + kMostDigits, number).ptr;
     used_ += static_cast<size_t>(end - begin);
+  }
+  template <typename Value>
+  void Append(const std::optional<Value>& value) {
+    value.has_value() ? Append(*value) : Append(std::string_view("null"));
   }
   // Space for at most `bytes` more bytes. Most calls do not reallocate.
   char* Room(size_t bytes) {
