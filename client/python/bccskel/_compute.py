@@ -7,7 +7,8 @@ import numbers
 import os
 import pathlib
 import warnings
-from typing import Any, Callable, Iterator, Optional, Union
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, Callable, ContextManager, Iterator, Optional, Tuple, Union
 
 import numpy as np
 
@@ -17,11 +18,19 @@ from ._image import (Frame, Image, Lattice, Mesh, check_labels, check_vertices, 
 from ._options import texts_of
 from ._skeleton import Skeleton
 
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+    from typing_extensions import Unpack
+
+    from ._options import FileOptions, LabelsOptions, MaskOptions, MeshOptions
+
+_Path = Union[str, "os.PathLike[str]"]
+_Progress = Optional[Callable[[int, int], Any]]
+
 _SYSTEM_AUTHORITIES = "/etc/ssl/certs/ca-certificates.crt"
 
 
-def _call(server: Any, threads: int, timeout: Optional[float],
-          progress: Optional[Callable[[int, int], Any]]) -> Any:
+def _call(server: Any, threads: int, timeout: Optional[float], progress: _Progress) -> Any:
     if not isinstance(threads, numbers.Integral) or not 0 <= threads <= 1024:
         raise ValueError(f"threads must be a whole number from 0 to 1024, got {threads!r}")
     if timeout is not None and not (isinstance(timeout, numbers.Real) and 0 < timeout <= 1e7):
@@ -49,7 +58,7 @@ def _warn(skeleton: Skeleton) -> Skeleton:
 
 
 def _lattice(server: Any, lattice: Lattice, placed: bool, threads: int, timeout: Optional[float],
-             progress: Any, options: dict) -> Skeleton:
+             progress: Any, options: Mapping[str, Any]) -> Skeleton:
     if placed:
         raise TypeError("a Lattice has a placement and accepts no spacing, origin, direction or axes")
     for name in ("points", "spacing", "fill", "thin_parts", "lattice_axes"):
@@ -63,7 +72,8 @@ def _lattice(server: Any, lattice: Lattice, placed: bool, threads: int, timeout:
 
 
 def _mask(server: Any, mask: Any, spacing: Any, origin: Any, direction: Any, axes: str,
-          threads: int, timeout: Optional[float], progress: Any, options: dict) -> Skeleton:
+          threads: int, timeout: Optional[float], progress: Any,
+          options: Mapping[str, Any]) -> Skeleton:
     if isinstance(mask, Lattice):
         placed = axes != "zyx" or any(it is not None for it in (spacing, origin, direction))
         return _lattice(server, mask, placed, threads, timeout, progress, options)
@@ -77,7 +87,8 @@ def _mask(server: Any, mask: Any, spacing: Any, origin: Any, direction: Any, axe
 
 
 def _labels(server: Any, image: Any, spacing: Any, origin: Any, direction: Any, axes: str,
-            threads: int, timeout: Optional[float], progress: Any, options: dict) -> dict:
+            threads: int, timeout: Optional[float], progress: Any,
+            options: Mapping[str, Any]) -> dict:
     array = voxels_of(image, "image")
     frame = _frame(image, axes, spacing, origin, direction)
     texts = texts_of("skeletonize_labels", "labels", options, frame.to_xyz)
@@ -106,7 +117,7 @@ def _labels(server: Any, image: Any, spacing: Any, origin: Any, direction: Any, 
 
 
 def _mesh(server: Any, vertices: Any, faces: Any, threads: int, timeout: Optional[float],
-          progress: Any, options: dict) -> Skeleton:
+          progress: Any, options: Mapping[str, Any]) -> Skeleton:
     title = "mesh"
     check_vertices(vertices)
     if isinstance(vertices, Mesh):
@@ -122,91 +133,109 @@ def _mesh(server: Any, vertices: Any, faces: Any, threads: int, timeout: Optiona
     return _warn(Skeleton(outcome, frame, title=title))
 
 
-def skeletonize(mask: Any, spacing: Any = None, origin: Any = None, direction: Any = None,
-                axes: str = "zyx", threads: int = 0, timeout: Optional[float] = None,
-                progress: Optional[Callable[[int, int], Any]] = None,
-                **options: Any) -> Skeleton:
-    """The skeleton of a mask.
+class _Functions:
+    """The functions of the package, computed in process or, by a Client, on its server."""
 
-    mask: an array of three axes, of any real type and any strides, an `Image`, or a `Lattice`,
-        whose coordinates are x, y, z. Nonzero voxels are the object; NaN is background. `threshold=`,
-        `below=`, `range=` and `label=` select other voxels.
-    spacing: the size of a voxel along each axis of the array, or one number; 1 by default.
-    origin: the center of voxel (0, 0, 0), in the order of the axes; 0 by default.
-    direction: shape (3, 3); column n is the direction of the array's axis n.
-    axes: the order of the array's axes: 'zyx' or, as in nibabel, 'xyz'. Coordinates of the
-        result are in the same order.
-    threads: 0 means all of the machine. The result is the same for any number.
-    timeout: seconds.
-    progress: called with (shells done, all shells).
-    options: those of `bccskel skeletonize` with underscores: method, kind, pruning,
-        pruning_threshold, merge_junctions, adjacency, ... See its manual.
+    _server: Any = None
 
-    Raises ValueError (shapes, values of options), TypeError (types, unknown options), MemoryError
-    (more than the library's limits), TimeoutError; KeyboardInterrupt ends the work.
+    def _hints(self) -> ContextManager[None]:
+        return contextlib.nullcontext()
 
-    >>> import numpy as np
-    >>> z, y, x = np.indices((16, 40, 40)) - np.array([8, 20, 20])[:, None, None, None]
-    >>> ring = np.hypot(np.hypot(x, y) - 12, z) < 4
-    >>> skeleton = skeletonize(ring, spacing=0.5)
-    >>> skeleton.certificate["skeleton"]
-    {'components': 1, 'loops': 1, 'cavities': 0}
-    >>> bool(abs(skeleton.lengths.sum() - 2 * np.pi * 6) < 2)
-    True
-    """
-    return _mask(None, mask, spacing, origin, direction, axes, threads, timeout, progress, options)
+    def skeletonize(self, mask: Union[ArrayLike, Image, Lattice],
+                    spacing: Optional[ArrayLike] = None, origin: Optional[ArrayLike] = None,
+                    direction: Optional[ArrayLike] = None, axes: str = "zyx", threads: int = 0,
+                    timeout: Optional[float] = None, progress: _Progress = None,
+                    **options: Unpack[MaskOptions]) -> Skeleton:
+        """The skeleton of a mask.
+
+        mask: an array of three axes, of any real type and any strides, an `Image`, or a `Lattice`,
+            whose coordinates are x, y, z. Nonzero voxels are the object; NaN is background. `threshold=`,
+            `below=`, `range=` and `label=` select other voxels.
+        spacing: the size of a voxel along each axis of the array, or one number; 1 by default.
+        origin: the center of voxel (0, 0, 0), in the order of the axes; 0 by default.
+        direction: shape (3, 3); column n is the direction of the array's axis n.
+        axes: the order of the array's axes: 'zyx' or, as in nibabel, 'xyz'. Coordinates of the
+            result are in the same order.
+        threads: 0 means all of the machine. The result is the same for any number.
+        timeout: seconds.
+        progress: called with (shells done, all shells).
+        options: those of `bccskel skeletonize` with underscores: method, kind, pruning,
+            pruning_threshold, merge_junctions, adjacency, ... See its manual.
+
+        Raises ValueError (shapes, values of options), TypeError (types, unknown options), MemoryError
+        (more than the library's limits), TimeoutError; KeyboardInterrupt ends the work.
+
+        >>> import numpy as np
+        >>> z, y, x = np.indices((16, 40, 40)) - np.array([8, 20, 20])[:, None, None, None]
+        >>> ring = np.hypot(np.hypot(x, y) - 12, z) < 4
+        >>> skeleton = skeletonize(ring, spacing=0.5)
+        >>> skeleton.certificate["skeleton"]
+        {'components': 1, 'loops': 1, 'cavities': 0}
+        >>> bool(abs(skeleton.lengths.sum() - 2 * np.pi * 6) < 2)
+        True
+        """
+        with self._hints():
+            return _mask(self._server, mask, spacing, origin, direction, axes, threads, timeout,
+                         progress, options)
+
+    def skeletonize_labels(self, image: Union[ArrayLike, Image],
+                           spacing: Optional[ArrayLike] = None,
+                           origin: Optional[ArrayLike] = None,
+                           direction: Optional[ArrayLike] = None, axes: str = "zyx",
+                           threads: int = 0, timeout: Optional[float] = None,
+                           progress: _Progress = None,
+                           **options: Unpack[LabelsOptions]) -> dict[int, Skeleton]:
+        """The skeletons of the labels of an image, by label; 0 and NaN are background.
+
+        As `skeletonize()`, but `progress` is called with (labels done, all labels), and the options are
+        those of `bccskel labels`: labels=[1, 7], min_voxels=100, ... Raises ValueError if no voxel
+        has any of the given labels.
+
+        >>> import numpy as np
+        >>> image = np.zeros((8, 16, 30), np.uint16)
+        >>> image[2:6, 2:6, 2:28] = 7
+        >>> image[2:6, 6:10, 2:28] = 9
+        >>> {label: skeleton.voxels for label, skeleton in skeletonize_labels(image).items()}
+        {7: 416, 9: 416}
+        """
+        with self._hints():
+            return _labels(self._server, image, spacing, origin, direction, axes, threads, timeout,
+                           progress, options)
+
+    def skeletonize_mesh(self, vertices: Union[ArrayLike, Mesh],
+                         faces: Optional[ArrayLike] = None, threads: int = 0,
+                         timeout: Optional[float] = None, progress: _Progress = None,
+                         **options: Unpack[MeshOptions]) -> Skeleton:
+        """The skeleton of the solid inside a triangle mesh.
+
+        vertices: shape (n, 3), x, y, z; or a `Mesh`, then without faces.
+        faces: shape (m, 3), indices of vertices.
+        options: those of `bccskel skeletonize` with underscores. points=850_000 (default) or
+            spacing=0.5 is the resolution; fill='parity' or 'winding' defines the inside
+            (large holes need 'winding'); thin_parts='sample' leaves parts thinner than two lattice units as the lattice meets them,
+            'keep' (default) adds the points that they need to stay whole; lattice_axes='shape'
+            (default) makes the result independent of the pose, 'world' keeps x, y, z.
+
+        Otherwise as `skeletonize()`; coordinates of the result are x, y, z.
+
+        >>> import numpy as np
+        >>> box = np.array([[x, y, z] for x in (0, 9) for y in (0, 1) for z in (0, 1)], float)
+        >>> faces = [[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1],
+        ...          [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]]
+        >>> skeletonize_mesh(box, faces, points=5000).certificate["topology_kept"]
+        True
+        """
+        with self._hints():
+            return _mesh(self._server, vertices, faces, threads, timeout, progress, options)
 
 
-def skeletonize_labels(image: Any, spacing: Any = None, origin: Any = None, direction: Any = None,
-                       axes: str = "zyx", threads: int = 0, timeout: Optional[float] = None,
-                       progress: Optional[Callable[[int, int], Any]] = None,
-                       **options: Any) -> dict:
-    """The skeletons of the labels of an image, by label; 0 and NaN are background.
-
-    As `skeletonize()`, but `progress` is called with (labels done, all labels), and the options are
-    those of `bccskel labels`: labels=[1, 7], min_voxels=100, ... Raises ValueError if no voxel
-    has any of the given labels.
-
-    >>> import numpy as np
-    >>> image = np.zeros((8, 16, 30), np.uint16)
-    >>> image[2:6, 2:6, 2:28] = 7
-    >>> image[2:6, 6:10, 2:28] = 9
-    >>> {label: skeleton.voxels for label, skeleton in skeletonize_labels(image).items()}
-    {7: 416, 9: 416}
-    """
-    return _labels(None, image, spacing, origin, direction, axes, threads, timeout, progress,
-                   options)
+_here = _Functions()
+skeletonize = _here.skeletonize
+skeletonize_labels = _here.skeletonize_labels
+skeletonize_mesh = _here.skeletonize_mesh
 
 
-def skeletonize_mesh(vertices: Any, faces: Any = None, threads: int = 0,
-                     timeout: Optional[float] = None,
-                     progress: Optional[Callable[[int, int], Any]] = None,
-                     **options: Any) -> Skeleton:
-    """The skeleton of the solid inside a triangle mesh.
-
-    vertices: shape (n, 3), x, y, z; or a `Mesh`, then without faces.
-    faces: shape (m, 3), indices of vertices.
-    options: those of `bccskel skeletonize` with underscores. points=850_000 (default) or
-        spacing=0.5 is the resolution; fill='parity' or 'winding' defines the inside
-        (large holes need 'winding');
-        thin_parts='sample' leaves parts thinner than two lattice units as the lattice meets them,
-        'keep' (default) adds the points that they need to stay whole; lattice_axes='shape'
-        (default) makes the result independent of the pose, 'world' keeps x, y, z.
-
-    Otherwise as `skeletonize()`; coordinates of the result are x, y, z.
-
-    >>> import numpy as np
-    >>> box = np.array([[x, y, z] for x in (0, 9) for y in (0, 1) for z in (0, 1)], float)
-    >>> faces = [[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1],
-    ...          [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]]
-    >>> skeletonize_mesh(box, faces, points=5000).certificate["topology_kept"]
-    True
-    """
-    return _mesh(None, vertices, faces, threads, timeout, progress, options)
-
-
-def read(path: Union[str, os.PathLike],
-         **options: Any) -> Union[Image, Mesh, Lattice, Skeleton]:
+def read(path: _Path, **options: Unpack[FileOptions]) -> Union[Image, Mesh, Lattice, Skeleton]:
     """An image (NIfTI, NRRD, TIFF, PNG, MetaImage, npy, npz, vol, ...) or a mesh (OBJ, STL, PLY, OFF,
     glTF, VTK polygon data, GIFTI, FreeSurfer) from a file, as the command line reads it; also
     compressed by gzip. A folder is read as OME-Zarr 0.4, a Zarr array, a Neuroglancer precomputed
@@ -236,7 +265,7 @@ def read(path: Union[str, os.PathLike],
         raise ValueError(str(error)) from None
 
 
-def _read(name: str, options: dict) -> Union[Image, Mesh, Lattice, Skeleton]:
+def _read(name: str, options: Mapping[str, Any]) -> Union[Image, Mesh, Lattice, Skeleton]:
     texts = texts_of("read", "file", options, [2, 1, 0])
     if _native.is_mesh(name) and not texts:
         vertices, faces = _native.read_mesh(name)
@@ -264,8 +293,11 @@ def _pem(path: Optional[Union[str, os.PathLike]]) -> str:
     return "" if path is None else pathlib.Path(path).read_text()
 
 
-class Client:
+class Client(_Functions):
     """The same functions, computed by a server.
+
+    Meshes are filled in process. skeletonize_labels() takes no samplings, and its skeletons have no
+    pages and no lattice points.
 
     address: 'HOST:PORT' or 'unix:PATH'.
     token: the access token, in visible ASCII; surrounding whitespace, such
@@ -283,7 +315,8 @@ class Client:
     """
 
     def __init__(self, address: str = "127.0.0.1:50051", token: Optional[str] = None,
-                 tls: Any = None, plaintext_token: bool = False) -> None:
+                 tls: Union[bool, _Path, Tuple[_Path, _Path, _Path], None] = None,
+                 plaintext_token: bool = False) -> None:
         if tls is True:
             tls = _SYSTEM_AUTHORITIES
         elif tls is False:
@@ -332,35 +365,7 @@ class Client:
                 raise
             raise ConnectionError(f"{error}; a server that wants TLS needs tls= of Client") from None
 
-    def describe(self, timeout: float = 10.0) -> dict:
+    def describe(self, timeout: float = 10.0) -> dict[str, str]:
         """{'server_version': ..., 'algorithm_version': ...}"""
         with self._hints():
             return _native.describe_server(self._endpoint, timeout)
-
-    def skeletonize(self, mask: Any, spacing: Any = None, origin: Any = None,
-                    direction: Any = None, axes: str = "zyx", threads: int = 0,
-                    timeout: Optional[float] = None,
-                    progress: Optional[Callable[[int, int], Any]] = None,
-                    **options: Any) -> Skeleton:
-        """As `bccskel.skeletonize()`."""
-        with self._hints():
-            return _mask(self._server, mask, spacing, origin, direction, axes, threads, timeout,
-                         progress, options)
-
-    def skeletonize_labels(self, image: Any, spacing: Any = None, origin: Any = None,
-                           direction: Any = None, axes: str = "zyx", threads: int = 0,
-                           timeout: Optional[float] = None,
-                           progress: Optional[Callable[[int, int], Any]] = None,
-                           **options: Any) -> dict:
-        """As `bccskel.skeletonize_labels()`, without samplings, pages and lattice volumes."""
-        with self._hints():
-            return _labels(self._server, image, spacing, origin, direction, axes, threads, timeout,
-                           progress, options)
-
-    def skeletonize_mesh(self, vertices: Any, faces: Any = None, threads: int = 0,
-                         timeout: Optional[float] = None,
-                         progress: Optional[Callable[[int, int], Any]] = None,
-                         **options: Any) -> Skeleton:
-        """As `bccskel.skeletonize_mesh()`; the mesh is filled in process."""
-        with self._hints():
-            return _mesh(self._server, vertices, faces, threads, timeout, progress, options)

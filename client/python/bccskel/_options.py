@@ -4,11 +4,77 @@ from __future__ import annotations
 
 import difflib
 import numbers
-from typing import Any
+from collections.abc import Mapping
+from typing import Any, Iterable, Literal, Tuple, TypedDict, Union
 
 import numpy as np
 
 from . import _native
+
+
+class SkeletonOptions(TypedDict, total=False):
+    preset: Literal["neuron", "vessels", "airway", "materials", "cad"]
+    denoise: int
+    fill_cavities: bool
+    cut_loops: float
+    min_component: int
+    min_component_volume: float
+    keep_largest: bool
+    distance: Literal["chamfer", "chamfer-optimal", "euclidean"]
+    pruning: Literal["significance", "length", "relative-length", "persistence", "none"]
+    pruning_threshold: float
+    tips: Literal["ridge", "as-thinned"]
+    border: Literal["ends", "continues"]
+    merge_junctions: float
+    method: Literal["directional", "directional-alternating", "symmetric"]
+    kind: Literal["curve", "surface", "kernel", "isthmus-curve"]
+    stubble: Literal["keep-two", "literal", "none"]
+    shell_width: float
+    last_shell: int
+    no_cleanup: bool
+    root: Union[str, Tuple[float, float, float]]
+
+
+class ConversionOptions(SkeletonOptions, total=False):
+    label: Union[int, Iterable[int]]
+    labels: Union[int, Iterable[int]]
+    adjacency: Literal["26,6", "6,26"]
+    voxel_points: Literal[2, 16]
+    sampling: Literal["exact", "nearest", "trilinear"]
+    density: float
+
+
+class MaskOptions(ConversionOptions, total=False):
+    range: Tuple[Union[float, None], Union[float, None]]
+    threshold: float
+    below: float
+    invert: bool
+
+
+class LabelsOptions(ConversionOptions, total=False):
+    min_voxels: int
+
+
+class MeshOptions(SkeletonOptions, total=False):
+    points: int
+    spacing: float
+    fill: Literal["auto", "parity", "winding"]
+    thin_parts: Literal["keep", "sample"]
+    lattice_axes: Literal["shape", "world"]
+
+
+class FileOptions(TypedDict, total=False):
+    voxel_size: Tuple[float, float, float]
+    channel: int
+    time: int
+    level: int
+    series: Union[str, int]
+    array: str
+    raw_size: Tuple[int, int, int]
+    raw_type: str
+    raw_order: Literal["little", "big"]
+    raw_header: int
+
 
 _PLACES = ("root", "voxel_size", "raw_size")
 """Options of three numbers that go with the axes."""
@@ -20,7 +86,7 @@ _OTHER_NAMES = {"voxel_size": "spacing", "anisotropy": "spacing", "resolution": 
 _OF_LABELS = {"min_component": "min_voxels"}
 
 
-def texts_of(function: str, kind: str, options: dict, to_xyz: list) -> list:
+def texts_of(function: str, kind: str, options: Mapping[str, Any], to_xyz: list) -> list:
     """(name, text) for each option that is not None; no text for a flag."""
     names = _native.option_names(kind)
     texts = []
