@@ -1,7 +1,5 @@
 #include "client/connection.h"
 
-#include <functional>
-#include <optional>
 #include <utility>
 
 #include "client/retry_loop.h"
@@ -19,7 +17,7 @@ class RetryingConnection : public Connection {
 
   absl::StatusOr<SkeletonizeResult> Skeletonize(const EncodedVolume& volume,
                                                 const CallOptions& options) override {
-    return Retry<SkeletonizeResult>(options.timeout, options.stop, [&](auto deadline) {
+    return RetryLoop(policy_, pause_, options.timeout, options.stop).Run([&](auto deadline) {
       return stub_->Skeletonize(volume, options, deadline);
     });
   }
@@ -32,32 +30,21 @@ class RetryingConnection : public Connection {
       delivered = true;
       return consume(std::move(skeleton));
     };
-    return Retry<LabelsReport>(
-        options.timeout, options.stop,
-        [&](auto deadline) {
-          return stub_->SkeletonizeLabels(volume, options, consume_once, deadline);
-        },
-        [&] { return !delivered; });
+    RetryLoop loop(policy_, pause_, options.timeout, options.stop);
+    return loop.Run([&](auto deadline) {
+      auto report = stub_->SkeletonizeLabels(volume, options, consume_once, deadline);
+      if (delivered) loop.Stop();
+      return report;
+    });
   }
 
   absl::StatusOr<ServerDescription> Describe(milliseconds timeout) override {
-    return Retry<ServerDescription>(timeout, {},
-                                    [&](auto deadline) { return stub_->Describe(deadline); });
+    return RetryLoop(policy_, pause_, timeout, {}).Run([&](auto deadline) {
+      return stub_->Describe(deadline);
+    });
   }
 
  private:
-  template <typename Value, typename Attempt>
-  absl::StatusOr<Value> Retry(
-      milliseconds timeout, const std::stop_token& stop, Attempt attempt,
-      const std::function<bool()>& may_repeat = [] { return true; }) {
-    RetryLoop loop(policy_, pause_, timeout, stop);
-    while (true) {
-      absl::StatusOr<Value> result = attempt(loop.deadline());
-      if (result.ok() || !may_repeat()) return result;
-      if (std::optional<absl::Status> end = loop.EndAfter(result.status())) return *std::move(end);
-    }
-  }
-
   std::unique_ptr<Stub> stub_;
   RetryPolicy policy_;
   Pause pause_;

@@ -63,9 +63,6 @@ class Stub {
   virtual absl::StatusOr<ServerDescription> Describe(Clock::time_point deadline) = 0;
 };
 
-// How a retrying connection waits between attempts; tests replace it.
-using Pause = std::function<void(std::chrono::milliseconds, const std::stop_token&)>;
-
 std::shared_ptr<Connection> MakeRetryingConnection(std::unique_ptr<Stub> stub,
                                                    const RetryPolicy& policy = {},
                                                    Pause pause = PauseFor);

@@ -8,16 +8,6 @@
 #include "core/exec/status_macros.h"
 
 namespace bccskel::client {
-namespace {
-
-absl::Status StatusOf(const absl::Status& status) { return status; }
-template <typename Value>
-absl::Status StatusOf(const absl::StatusOr<Value>& value) {
-  return value.status();
-}
-
-}  // namespace
-
 std::string RandomId() {
   std::random_device device;
   std::string id;
@@ -48,12 +38,7 @@ const char* NameOf(JobState state) {
 template <typename Attempt>
 auto DurableClient::Retry(const Calls& calls, Attempt attempt)
     -> decltype(attempt(DurableStub::Deadline())) {
-  RetryLoop loop(policy_, pause_, calls.timeout, calls.stop);
-  while (true) {
-    auto result = attempt(loop.deadline());
-    if (StatusOf(result).ok()) return result;
-    if (auto end = loop.EndAfter(StatusOf(result)); end.has_value()) return *std::move(end);
-  }
+  return RetryLoop(policy_, pause_, calls.timeout, calls.stop).Run(std::move(attempt));
 }
 
 absl::StatusOr<std::string> DurableClient::Upload(const EncodedVolume& volume, const Calls& calls) {
@@ -117,24 +102,22 @@ absl::StatusOr<JobState> DurableClient::Watch(const std::string& job,
     loop.Progressed();
     if (consume) consume(event);
   };
-  while (true) {
-    const absl::Status status = stub_->WatchJob(job, known, take, calls.stop, loop.deadline());
-    if (status.ok() && HasEnded(state)) return state;
-    if (status.ok()) return absl::DataLossError("the watch ended before " + job + " did");
-    if (auto end = loop.EndAfter(status); end.has_value()) return *std::move(end);
-  }
+  BCCSKEL_RETURN_IF_ERROR(loop.Run(
+      [&](auto deadline) { return stub_->WatchJob(job, known, take, calls.stop, deadline); }));
+  if (HasEnded(state)) return state;
+  return absl::DataLossError("the watch ended before " + job + " did");
 }
 
 absl::StatusOr<SkeletonizeResult> DurableClient::Fetch(const std::string& job, const Calls& calls) {
   RetryLoop loop(policy_, pause_, calls.timeout, calls.stop);
   SkeletonReading reading;
-  while (true) {
+  BCCSKEL_RETURN_IF_ERROR(loop.Run([&](auto deadline) {
     const uint32_t before = reading.pieces();
-    const absl::Status status = stub_->ReadSkeleton(job, reading, calls.stop, loop.deadline());
-    if (status.ok()) return std::move(reading).Finish();
+    const absl::Status status = stub_->ReadSkeleton(job, reading, calls.stop, deadline);
     if (reading.pieces() > before) loop.Progressed();
-    if (auto end = loop.EndAfter(status); end.has_value()) return *std::move(end);
-  }
+    return status;
+  }));
+  return std::move(reading).Finish();
 }
 
 }  // namespace bccskel::client

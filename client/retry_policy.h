@@ -38,6 +38,8 @@ class RetryPauses {
   std::chrono::milliseconds pause_;
 };
 
+// How a retrying connection waits between attempts; tests replace it.
+using Pause = std::function<void(std::chrono::milliseconds, const std::stop_token&)>;
 // Waits; returns early when `stop` is requested.
 void PauseFor(std::chrono::milliseconds duration, const std::stop_token& stop);
 
