@@ -75,7 +75,7 @@ ExitCode Run(const GenerateArguments& arguments, const std::stop_token& stop) {
   if (!volume.ok()) return FailWith(ExitCode::kUsage, volume.status());
   exec::Context context;
   context.stop = stop;
-  const absl::Status written = WriteVolumeFile(arguments.output, *volume, {}, context);
+  const absl::Status written = WriteVolumeFile(arguments.output, *volume, context);
   if (!written.ok()) return FailWith(ExitCode::kOutput, written);
   return Print(SummaryOf(arguments, *volume));
 }

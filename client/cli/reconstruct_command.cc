@@ -48,7 +48,7 @@ ExitCode Run(const ReconstructArguments& arguments, const std::stop_token& stop)
       UnionOfBalls(view::BallsOf(loaded->result, object.placement()), object.extent(),
                    object.placement(), team.context());
   if (!balls.ok()) return Fail(balls.status());
-  const absl::Status written = WriteVolumeFile(arguments.output, *balls, {}, team.context());
+  const absl::Status written = WriteVolumeFile(arguments.output, *balls, team.context());
   if (!written.ok()) return FailWith(ExitCode::kOutput, written);
   return Print(SummaryOf(arguments, balls->PointCount(), MeasureOverlap(object, *balls)));
 }

@@ -90,8 +90,7 @@ ExitCode Run(const VoxelizeArguments& arguments, const std::stop_token& stop) {
   LocalTeam team(arguments.common.threads, stop);
   const absl::StatusOr<Voxelized> result = Load(arguments, team.context());
   if (!result.ok()) return Fail(result.status());
-  const absl::Status written =
-      WriteVolumeFile(arguments.output, result->volume, {}, team.context());
+  const absl::Status written = WriteVolumeFile(arguments.output, result->volume, team.context());
   if (!written.ok()) return FailWith(ExitCode::kOutput, written);
   return Print(SummaryOf(arguments, *result));
 }

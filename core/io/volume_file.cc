@@ -47,28 +47,17 @@ absl::StatusOr<std::span<const std::byte>> ReadSome(const exec::Descriptor& file
   return buffer.first(filled);
 }
 
-absl::StatusOr<VolumeEncoding> EncodingOfName(std::string_view path) {
-  if (path.ends_with(".exr")) return VolumeEncoding::kOpenExr;
-  if (path.ends_with(".bccb")) return VolumeEncoding::kBricks;
+absl::StatusOr<EncodeVolumeOptions> EncodingFor(std::string_view path) {
+  if (path.ends_with(".exr")) {
+    return EncodeVolumeOptions{.encoding = VolumeEncoding::kOpenExr,
+                               .compression = VolumeCompression::kZip};
+  }
+  if (path.ends_with(".bccb")) {
+    return EncodeVolumeOptions{.encoding = VolumeEncoding::kBricks,
+                               .compression = VolumeCompression::kZstd};
+  }
   return absl::InvalidArgumentError(
       "the name of a volume file must end in .exr (OpenEXR) or .bccb (bricks)");
-}
-
-absl::StatusOr<EncodeVolumeOptions> EncodingFor(const std::string& path,
-                                                const WriteVolumeOptions& options) {
-  EncodeVolumeOptions chosen = {.max_dense_bytes = options.max_dense_bytes};
-  if (options.encoding) {
-    chosen.encoding = *options.encoding;
-  } else {
-    BCCSKEL_ASSIGN_OR_RETURN(chosen.encoding, EncodingOfName(path));
-  }
-  if (chosen.encoding == VolumeEncoding::kRawPlanes) {
-    return absl::InvalidArgumentError("raw planes have no header and are not a file format");
-  }
-  const bool exr = chosen.encoding == VolumeEncoding::kOpenExr;
-  chosen.compression =
-      options.compression.value_or(exr ? VolumeCompression::kZip : VolumeCompression::kZstd);
-  return chosen;
 }
 
 // The share of the records that lie at their places in the file.
@@ -125,8 +114,8 @@ absl::StatusOr<Volume> DecodeFile(const exec::Descriptor& file, const LayerPart&
 }
 
 absl::Status ReplaceFile(const std::string& path, const Volume& volume,
-                         const WriteVolumeOptions& options, const exec::Context& context) {
-  BCCSKEL_ASSIGN_OR_RETURN(const EncodeVolumeOptions encoding, EncodingFor(path, options));
+                         const exec::Context& context) {
+  BCCSKEL_ASSIGN_OR_RETURN(const EncodeVolumeOptions encoding, EncodingFor(path));
   BCCSKEL_ASSIGN_OR_RETURN(const std::unique_ptr<FileReplacement> file,
                            FileReplacement::Begin(path));
   BCCSKEL_RETURN_IF_ERROR(EncodeVolumeTo(volume, encoding, *file, context));
@@ -150,8 +139,8 @@ absl::StatusOr<Volume> ReadVolumePart(const std::string& path, const LayerPart& 
 }
 
 absl::Status WriteVolumeFile(const std::string& path, const Volume& volume,
-                             const WriteVolumeOptions& options, const exec::Context& context) {
-  const absl::Status written = ReplaceFile(path, volume, options, context);
+                             const exec::Context& context) {
+  const absl::Status written = ReplaceFile(path, volume, context);
   return written.ok() ? written : InFile(path, written);
 }
 

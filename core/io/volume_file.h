@@ -1,7 +1,6 @@
 #ifndef BCCSKEL_CORE_IO_VOLUME_FILE_H_
 #define BCCSKEL_CORE_IO_VOLUME_FILE_H_
 
-#include <optional>
 #include <string>
 
 #include "absl/status/status.h"
@@ -28,20 +27,11 @@ absl::StatusOr<Volume> ReadVolumePart(const std::string& path, const LayerPart& 
                                       const VolumeLimits& limits = {},
                                       const exec::Context& context = {});
 
-struct WriteVolumeOptions {
-  // What is not given follows from the name: .exr is OpenEXR with ZIP, .bccb bricks with zstd.
-  std::optional<VolumeEncoding> encoding = std::nullopt;
-  std::optional<VolumeCompression> compression = std::nullopt;
-  uint64_t max_dense_bytes = uint64_t{4} << 30;
-};
-
-// Writes a volume file. A reader of `path` sees the old file or the whole new one, never a part;
-// after an error the old file is still there.
-// Errors: INVALID_ARGUMENT for a name with another ending when no encoding is given, for raw planes
-//         (they have no header, so they are not a file format), and as EncodeVolume(); what the
-//         system says.
+// Writes a volume file: .exr is OpenEXR with ZIP, .bccb bricks with zstd. A reader of `path` sees
+// the old file or the whole new one, never a part; after an error the old file is still there.
+// Errors: INVALID_ARGUMENT for a name with another ending, and as EncodeVolume(); what the system
+//         says.
 absl::Status WriteVolumeFile(const std::string& path, const Volume& volume,
-                             const WriteVolumeOptions& options = {},
                              const exec::Context& context = {});
 
 }  // namespace bccskel
