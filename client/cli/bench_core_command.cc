@@ -133,11 +133,9 @@ void AddObject(CLI::App& core, BenchCoreArguments& arguments) {
   core.add_option("--object", arguments.object, "Mesh, volume or image to thin instead")
       ->excludes(shape)
       ->option_text("FILE");
-  core.add_option_function<std::string>(
-          "--points",
-          [&arguments](const std::string& given) { arguments.points = ReadBenchPoints(given); },
-          "Number of points of a shape or a mesh (default 850000)")
-      ->option_text("N");
+  AddCount(core, "--points", arguments.points,
+           "Number of points of a shape or a mesh (default 850000)", kMinShapePoints,
+           kMaxShapePoints);
 }
 
 void AddEngine(CLI::App& core, BenchCoreArguments& arguments) {

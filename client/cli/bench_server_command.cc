@@ -326,7 +326,8 @@ void AddBenchServer(CLI::App& command, BenchServerArguments& arguments) {
           [&arguments](const std::vector<std::string>& given) {
             arguments.points.clear();
             for (const std::string& count : given) {
-              arguments.points.push_back(ReadBenchPoints(count));
+              arguments.points.push_back(
+                  ReadCount<uint64_t>("--points", count, kMinShapePoints, kMaxShapePoints));
             }
           },
           "Points of the volume (default 10000,850000)")

@@ -193,10 +193,6 @@ void AddResultAndObject(CLI::App& command, ResultArguments& arguments, ObjectNee
   AddCommonHere(command, arguments.common);
 }
 
-uint64_t ReadBenchPoints(const std::string& given) {
-  return ReadCount<uint64_t>("--points", given, kMinShapePoints, kMaxShapePoints);
-}
-
 CLI::Option* AddBenchShape(CLI::App& command, std::string& shape, const char* description) {
   return AddChoice<std::string>(command, "--shape", shape, description, Themselves(kBenchObjects));
 }

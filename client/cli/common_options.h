@@ -63,8 +63,7 @@ void AddResult(CLI::App& command, std::string& path);
 enum class ObjectNeed { kRequired, kOptional };
 void AddResultAndObject(CLI::App& command, ResultArguments& arguments, ObjectNeed need);
 
-// Options of the benchmarks and `generate`. ReadBenchPoints() throws CLI::ValidationError.
-uint64_t ReadBenchPoints(const std::string& given);
+// Options of the benchmarks.
 CLI::Option* AddBenchShape(CLI::App& command, std::string& shape, const char* description);
 void AddBenchMethod(CLI::App& command, ThinningMethod& method,
                     std::optional<DistanceKind>& distance, const char* description);

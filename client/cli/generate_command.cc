@@ -37,14 +37,8 @@ void AddGenerate(CLI::App& command, GenerateArguments& arguments) {
       ->required()
       ->option_text(" ");
   AddVolumeOutput(command, arguments.output);
-  command
-      .add_option_function<std::string>(
-          "--points",
-          [&arguments](const std::string& given) {
-            arguments.options.points = ReadBenchPoints(given);
-          },
-          "Number of points of the object (default 850000)")
-      ->option_text("N");
+  AddCount(command, "--points", arguments.options.points,
+           "Number of points of the object (default 850000)", kMinShapePoints, kMaxShapePoints);
   AddCount(command, "--seed", arguments.options.seed, "Seed of the random parts (default 0)");
   command
       .add_option("--noise", arguments.options.noise,

@@ -20,15 +20,9 @@
 namespace bccskel::cli {
 
 void AddGrid(CLI::App& command, VoxelizeOptions& grid) {
-  CLI::Option* points = command
-                            .add_option_function<std::string>(
-                                "--points",
-                                [&grid](const std::string& given) {
-                                  grid.points =
-                                      ReadCount<uint64_t>("--points", given, 1, grid.max_points);
-                                },
-                                "Number of lattice points inside the solid")
-                            ->option_text("N");
+  CLI::Option* points = AddCount<uint64_t>(
+      command, "--points", [&grid](uint64_t number) { grid.points = number; },
+      "Number of lattice points inside the solid", 1, grid.max_points);
   command.add_option("--spacing", grid.spacing, "Edge of the cubic cell, in the mesh's unit")
       ->check(Positive())
       ->excludes(points)

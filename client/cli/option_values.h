@@ -90,16 +90,18 @@ Number ReadCount(const std::string& name, const std::string& given, Number low =
 
 template <std::unsigned_integral Number>
 CLI::Option* AddCount(CLI::App& command, const std::string& name, std::function<void(Number)> use,
-                      const char* description) {
-  const auto read = [name, use](const std::string& given) { use(ReadCount<Number>(name, given)); };
+                      const char* description, Number low = 0,
+                      Number high = std::numeric_limits<Number>::max()) {
+  const auto read = [=](const std::string& given) { use(ReadCount(name, given, low, high)); };
   return command.add_option_function<std::string>(name, read, description)->option_text("N");
 }
 
 template <std::unsigned_integral Number>
 CLI::Option* AddCount(CLI::App& command, const std::string& name, Number& value,
-                      const char* description) {
+                      const char* description, Number low = 0,
+                      Number high = std::numeric_limits<Number>::max()) {
   return AddCount<Number>(
-      command, name, [&value](Number count) { value = count; }, description);
+      command, name, [&value](Number count) { value = count; }, description, low, high);
 }
 
 // An option of the command line as another language names it: {"pruning_threshold", "1"}.

@@ -10,8 +10,6 @@
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "client/cli/option_values.h"
-#include "core/exec/status_macros.h"
-#include "core/pipeline/canonical_options.h"
 #include "core/pipeline/option_words.h"
 #include "core/pipeline/presets.h"
 
@@ -168,6 +166,7 @@ void TakeKind(const CLI::App& command, SkeletonKind kind, SkeletonizeOptions& op
 void TakeLastShell(const CLI::App& command, int32_t shell, SkeletonizeOptions& options) {
   options.thinning.last_shell = shell;
   if (shell <= 0) return;
+  DropPresetsThreshold(command, options.pruning);
   RefuseOfCurves(command, options.pruning, "--last-shell stops before there are curves");
   RefuseOfGraphs(command, options.junction_reach);
 }
@@ -273,46 +272,16 @@ void AddMinVoxels(CLI::App& command, uint64_t& min_voxels) {
   AddCount(command, "--min-voxels", min_voxels, "Skip labels of fewer than N voxels (default 1)");
 }
 
-namespace {
-
-// Rejects options of pruning that would have no effect.
-absl::Status CheckPruning(const SkeletonizeOptions& options) {
-  const PruningOptions& pruning = options.pruning;
-  if (pruning.rule == PruningRule::kNone && pruning.threshold != 0) {
-    return absl::InvalidArgumentError(
-        "--pruning-threshold is for a rule of pruning, not for --pruning none");
-  }
-  const bool asked = pruning.rule != PruningRule::kNone && pruning != PruningOptions();
-  if (!asked || HasCurves(options.thinning)) return absl::OkStatus();
-  if (HasSheets(options.thinning)) {
-    if (pruning.tips == TipPlacement::kRidge) return absl::OkStatus();
-    return absl::InvalidArgumentError("--tips is for curves, and --kind surface has none");
-  }
-  const std::string why =
-      options.thinning.last_shell > 0
-          ? "--last-shell stops before there are curves"
-          : std::string("--kind ") + WordFor(kKindWords, options.thinning.kind) + " has none";
-  return absl::InvalidArgumentError(
-      "--pruning, --pruning-threshold and --tips are for curves, and " + why);
-}
-
-absl::Status CheckJunctions(const SkeletonizeOptions& options) {
-  const bool asked = options.junction_reach != 0 && options.junction_reach != kDefaultJunctionReach;
-  if (!asked || HasGraphOfCurves(options.thinning)) return absl::OkStatus();
-  return absl::InvalidArgumentError(
-      "--merge-junctions is for graphs of curves, not for --kind surface and --last-shell");
-}
-
-}  // namespace
-
 absl::Status ValidateOptions(const SkeletonizeOptions& options) {
   if (options.pruning.rule == PruningRule::kLength && options.pruning.threshold == 0) {
     return absl::InvalidArgumentError(
         "--pruning length needs --pruning-threshold, the length in world units");
   }
-  BCCSKEL_RETURN_IF_ERROR(CheckSkeletonizeOptions(options));
-  BCCSKEL_RETURN_IF_ERROR(CheckJunctions(options));
-  return CheckPruning(options);
+  if (options.pruning.rule == PruningRule::kNone && options.pruning.threshold != 0) {
+    return absl::InvalidArgumentError(
+        "--pruning-threshold is for a rule of pruning, not for --pruning none");
+  }
+  return CheckSkeletonizeOptions(options);
 }
 
 absl::Status ValidateRootOfLabels(const std::optional<RootChoice>& root) {
