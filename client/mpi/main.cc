@@ -61,13 +61,12 @@ struct Command {
   bccskel::cli::RankOptions options;
 };
 
-std::variant<Command, ExitCode> Parse(std::vector<char*> words) {
-  static char command[] = "skeletonize";
-  const std::string_view first = words.size() > 1 ? words[1] : "";
+std::variant<Command, ExitCode> Parse(std::vector<std::string> words) {
+  const std::string first = words.empty() ? "" : words.front();
   if (first == "--version") {
     return bccskel::cli::Print("bccskel-mpi " + std::string(bccskel::Version()) + "\n");
   }
-  if (first == "--help" || first == "-h") words.insert(words.begin() + 1, command);
+  if (first == "--help" || first == "-h") words.insert(words.begin(), "skeletonize");
   if (first.empty()) {
     return bccskel::cli::FailWith(
         ExitCode::kUsage, absl::InvalidArgumentError(
@@ -75,7 +74,9 @@ std::variant<Command, ExitCode> Parse(std::vector<char*> words) {
   }
   const auto options = bccskel::cli::TakeRankOptions(words);
   if (!options.ok()) return bccskel::cli::FailWith(ExitCode::kUsage, options.status());
-  auto parsed = bccskel::cli::ParseArguments(static_cast<int>(words.size()), words.data());
+  std::vector<const char*> pointers = {"bccskel-mpi"};
+  for (const std::string& word : words) pointers.push_back(word.c_str());
+  auto parsed = bccskel::cli::ParseArguments(static_cast<int>(pointers.size()), pointers.data());
   if (const auto* code = std::get_if<ExitCode>(&parsed)) {
     const bool help = std::ranges::any_of(
         words, [](std::string_view word) { return word == "--help" || word == "-h"; });
@@ -128,7 +129,7 @@ ExitCode RunOrAbort(const Command& command, MpiExchange& exchange, const std::st
   }
 }
 
-ExitCode Main(std::vector<char*> words) {
+ExitCode Main(const std::vector<std::string>& words) {
   absl::SetMutexDeadlockDetectionMode(absl::OnDeadlockCycle::kIgnore);  // as in client/cli/main.cc
   // Arrays of megabytes go back to the system after use; smaller ones, such as messages to many
   // ranks, are needed again in the next round.
@@ -162,7 +163,7 @@ ExitCode Main(std::vector<char*> words) {
 
 int main(int argc, char** argv) {
   try {
-    return static_cast<int>(Main({argv, argv + argc}));
+    return static_cast<int>(Main({argv + std::min(argc, 1), argv + argc}));
   } catch (const std::exception& error) {  // mpirun then ends the other ranks
     std::fprintf(stderr, "bccskel-mpi: error: %s\n", error.what());
     return static_cast<int>(ExitCode::kTooLarge);

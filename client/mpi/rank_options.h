@@ -36,9 +36,9 @@ inline constexpr char kRankOptionsHelp[] =
     "                              also --points N, --seed N, --noise X\n"
     "  --report-exchange           Report on standard error what each rank sent, and its memory\n";
 
-// Extracts these options from a command line.
+// Extracts these options from a command line, which begins with the command.
 // Errors: INVALID_ARGUMENT.
-absl::StatusOr<RankOptions> TakeRankOptions(std::vector<char*>& words);
+absl::StatusOr<RankOptions> TakeRankOptions(std::vector<std::string>& words);
 
 }  // namespace bccskel::cli
 
