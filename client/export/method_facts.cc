@@ -28,13 +28,13 @@ MethodFacts MethodFactsOf(const SkeletonizeResult& result, const World& world) {
   return facts;
 }
 
-MethodFacts MethodFactsOf(const view::ResultGraph& result) {
+MethodFacts MethodFactsOf(const view::ResultFacts& result) {
   MethodFacts facts = {{"method", result.method},
                        {"algorithm_version", result.algorithm_version},
                        {"world", result.world},
                        {"unit", result.unit}};
   facts.insert(facts.end(), result.options.begin(), result.options.end());
-  AddPreparing(result.preparing, facts);
+  AddPreparing(result.steps, facts);
   return facts;
 }
 

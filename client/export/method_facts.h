@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "client/export/world.h"
-#include "client/view/result_graph.h"
+#include "client/view/result_document.h"
 #include "core/certificate/certificate.h"
 #include "core/pipeline/skeletonize.h"
 
@@ -18,7 +18,7 @@ namespace bccskel::exporting {
 using MethodFacts = std::vector<std::pair<std::string, std::string>>;
 MethodFacts MethodFactsOf(const SkeletonizeResult& result, const World& world = {});
 // For a result read from a file.
-MethodFacts MethodFactsOf(const view::ResultGraph& result);
+MethodFacts MethodFactsOf(const view::ResultFacts& result);
 
 // As JSON values: an object of the options, and a list of the steps of preparation.
 std::string OptionsJson(const SkeletonizeOptions& options);

@@ -18,8 +18,20 @@
 
 namespace bccskel::view {
 
+// What a result is of, and how it was made.
+struct ResultFacts {
+  std::string method = "unknown";
+  std::string algorithm_version = "unknown";
+  std::string world = "unknown";
+  std::string unit = "unknown";
+  std::vector<std::pair<std::string, std::string>> options;  // in the document's order
+  std::vector<PreparingStep> steps;                          // before thinning, with their effects
+  Certificate certificate;
+  uint64_t object_points = 0;  // after preparing
+};
+
 // A JSON result (client/export/skeleton.schema.json). World coordinates.
-struct ResultDocument {
+struct ResultDocument : ResultFacts {
   struct Node {
     std::string kind;
     WorldPoint position;
@@ -47,17 +59,9 @@ struct ResultDocument {
   std::vector<Node> nodes;
   std::vector<Edge> edges;
   Sheets sheets;
-  std::optional<Placement> placement;  // unknown in results of older versions
-  PreparingOptions preparing;          // the preparation of the object before thinning
-  std::vector<PreparingStep> steps;    // and its effects
-  bool border_continues = false;       // whether balls reach beyond the border
-  Certificate certificate;
-  uint64_t object_points = 0;
-  std::vector<std::pair<std::string, std::string>> options;  // in the document's order
-  std::string method = "unknown";
-  std::string algorithm_version = "unknown";
-  std::string world = "unknown";
-  std::string unit = "unknown";
+  std::optional<Placement> placement;          // unknown in results of older versions
+  PreparingOptions preparing;                  // the preparation of the object before thinning
+  bool border_continues = false;               // whether balls reach beyond the border
   std::optional<std::vector<uint32_t>> roots;  // of a result with an order; indices into nodes
   std::string root_rule;                       // the rule of the roots, if the document states it
   std::shared_ptr<const std::string> text;     // the document itself

@@ -134,16 +134,9 @@ absl::Status ReadRoots(const ResultDocument& document, ResultGraph& result) {
 absl::StatusOr<ResultGraph> ResultGraphOf(const ResultDocument& document) {
   if (!document.placement.has_value()) return NoResult("placement", "there");
   ResultGraph result;
+  static_cast<ResultFacts&>(result) = document;
   BCCSKEL_ASSIGN_OR_RETURN(result.graph, GraphReader(document).Run());
-  result.method = document.method;
-  result.algorithm_version = document.algorithm_version;
-  result.world = document.world;
-  result.unit = document.unit;
-  result.options = document.options;
-  result.preparing = document.steps;
   BCCSKEL_RETURN_IF_ERROR(ReadRoots(document, result));
-  result.certificate = document.certificate;
-  result.object_points = document.object_points;
   return result;
 }
 

@@ -1,32 +1,19 @@
 #ifndef BCCSKEL_CLIENT_VIEW_RESULT_GRAPH_H_
 #define BCCSKEL_CLIENT_VIEW_RESULT_GRAPH_H_
 
-#include <cstdint>
 #include <optional>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "absl/status/statusor.h"
 #include "client/view/result_document.h"
-#include "core/certificate/certificate.h"
-#include "core/prepare/prepare.h"
 #include "core/skeleton/skeleton_graph.h"
 #include "core/skeleton/tree_order.h"
 
 namespace bccskel::view {
 
-// The graph of a JSON result, on its lattice, and how it was made.
-struct ResultGraph {
+// A JSON result with its graph on its lattice.
+struct ResultGraph : ResultFacts {
   SkeletonGraph graph;
-  std::string method;
-  std::string algorithm_version;
-  std::string world;  // "unknown" if the input did not state it
-  std::string unit;
-  std::vector<std::pair<std::string, std::string>> options;
-  std::vector<PreparingStep> preparing;
-  Certificate certificate;
-  uint64_t object_points = 0;      // after preparing
   std::optional<RootChoice> root;  // of a result with an order
 };
 

@@ -6,6 +6,7 @@
 #include "client/cli/console.h"
 #include "client/cli/image_options.h"
 #include "client/cli/load_object.h"
+#include "client/view/result_graph.h"
 #include "core/exec/status_macros.h"
 #include "core/import/voxelize/voxelize.h"
 #include "core/labels/convert_label.h"
@@ -208,9 +209,9 @@ absl::StatusOr<LabelOutcomes> SkeletonizeOnServer(const client::LabelVolume& ima
 absl::StatusOr<Outcome> ReadResult(const std::string& path) {
   BCCSKEL_ASSIGN_OR_RETURN(view::ResultGraph read, view::ReadResultGraph(path));
   Outcome outcome;
-  outcome.result.graph = std::exchange(read.graph, {});
+  outcome.result.graph = std::move(read.graph);
   outcome.result.certificate = read.certificate;
-  outcome.result.preparing = read.preparing;
+  outcome.result.preparing = read.steps;
   outcome.result.object_points = read.object_points;
   outcome.result.method = read.method;
   outcome.result.algorithm_version = read.algorithm_version;

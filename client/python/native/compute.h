@@ -15,7 +15,7 @@
 #include "client/cli/arguments.h"
 #include "client/encoded_labels.h"
 #include "client/skeletonize_client.h"
-#include "client/view/result_graph.h"
+#include "client/view/result_document.h"
 #include "core/import/image/image_source.h"
 #include "core/import/mesh/triangle_mesh.h"
 #include "core/labels/voxel_runs.h"
@@ -36,8 +36,8 @@ struct Outcome {
   // The voxels of a label that was computed here; the object of a mask implies its voxels.
   std::shared_ptr<const LabeledObject> label;
 
-  // For a result read from JSON: how it was made; its graph is that of `result`.
-  std::optional<view::ResultGraph> read;
+  // For a result read from JSON: how it was made.
+  std::optional<view::ResultFacts> read;
 
   // JSON results do not state the number of voxels.
   std::optional<uint64_t> KnownVoxels() const {

@@ -120,25 +120,23 @@ std::shared_ptr<const LabeledObject> LabelOfState(const py::object& state) {
 using ReadState =
     std::tuple<std::string, std::string, std::vector<std::pair<std::string, std::string>>>;
 
-py::object StateOfRead(const std::optional<view::ResultGraph>& read) {
+py::object StateOfRead(const std::optional<view::ResultFacts>& read) {
   if (!read.has_value()) return py::none();
   return py::cast(ReadState(read->world, read->unit, read->options));
 }
 
-std::optional<view::ResultGraph> ReadOfState(const py::object& state,
+std::optional<view::ResultFacts> ReadOfState(const py::object& state,
                                              const SkeletonizeResult& result) {
   if (state.is_none()) return std::nullopt;
   auto [world, unit, options] = state.cast<ReadState>();
-  return view::ResultGraph{.graph = {},
-                           .method = result.method,
+  return view::ResultFacts{.method = result.method,
                            .algorithm_version = result.algorithm_version,
                            .world = std::move(world),
                            .unit = std::move(unit),
                            .options = std::move(options),
-                           .preparing = result.preparing,
+                           .steps = result.preparing,
                            .certificate = result.certificate,
-                           .object_points = result.object_points,
-                           .root = {}};
+                           .object_points = result.object_points};
 }
 
 }  // namespace
