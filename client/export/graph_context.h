@@ -16,6 +16,12 @@ struct GraphContext {
   std::optional<TreeOrder> order = std::nullopt;
 };
 
+inline std::optional<TreeOrder> OrderOf(const SkeletonGraph& graph,
+                                        const std::optional<RootChoice>& root) {
+  if (!root.has_value()) return std::nullopt;
+  return OrderTrees(graph, *root);
+}
+
 }  // namespace bccskel::exporting
 
 #endif  // BCCSKEL_CLIENT_EXPORT_GRAPH_CONTEXT_H_

@@ -7,16 +7,6 @@
 #include "core/exec/status_macros.h"
 
 namespace bccskel::exporting {
-namespace {
-
-std::optional<TreeOrder> OrderOf(const SkeletonGraph& graph,
-                                 const std::optional<RootChoice>& root) {
-  if (!root.has_value()) return std::nullopt;
-  return OrderTrees(graph, *root);
-}
-
-}  // namespace
-
 void LabeledSkeletons::Add(uint64_t label, uint64_t voxels, const SkeletonizeResult& result) {
   const SkeletonGraph& graph = result.graph;
   if (facts_.empty()) {

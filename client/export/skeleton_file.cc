@@ -85,9 +85,9 @@ absl::StatusOr<Document> WithoutNote(absl::StatusOr<std::string> bytes) {
   return Document{*std::move(bytes), ""};
 }
 
-std::optional<TreeOrder> OrderOf(const Subject& subject) {
-  if (!subject.root.has_value()) return std::nullopt;
-  return OrderTrees(subject.result.graph, *subject.root);
+std::string JsonText(const Subject& subject) {
+  return exporting::JsonText(subject.result, OrderOf(subject.result.graph, subject.root),
+                             subject.world);
 }
 
 absl::StatusOr<view::Peeling> PeelingOf(const Subject& subject) {
@@ -97,7 +97,7 @@ absl::StatusOr<view::Peeling> PeelingOf(const Subject& subject) {
 }
 
 absl::StatusOr<view::ResultDocument> DocumentOf(const Subject& subject) {
-  return view::ParseResultDocument(JsonText(subject.result, OrderOf(subject), subject.world));
+  return view::ParseResultDocument(JsonText(subject));
 }
 
 absl::StatusOr<std::string> SvgText(const Subject& subject) {
@@ -140,9 +140,7 @@ absl::StatusOr<std::string> Compose(const std::string& path, SkeletonFormat form
                                     const Subject& subject) {
   if (format == SkeletonFormat::kSvg) return SvgText(subject);
   if (format == SkeletonFormat::kHtml) return PageText(subject);
-  if (format == SkeletonFormat::kJson) {
-    return JsonText(subject.result, OrderOf(subject), subject.world);
-  }
+  if (format == SkeletonFormat::kJson) return JsonText(subject);
   if (subject.draw != nullptr) return subject.draw(subject);
   return absl::UnimplementedError(path + ": this program draws no pictures; write an .svg, or " +
                                   "draw a .json file with `bccskel render`");
@@ -210,7 +208,7 @@ absl::StatusOr<std::string> WriteSkeletonFile(const std::string& path, const Sub
                         {.graph = graph,
                          .context = {.labels = {},
                                      .facts = MethodFactsOf(subject.result, subject.world),
-                                     .order = OrderOf(subject)},
+                                     .order = OrderOf(graph, subject.root)},
                          .world = subject.world,
                          .swc = subject.swc},
                         stop);

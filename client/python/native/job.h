@@ -15,6 +15,7 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "core/exec/context.h"
+#include "core/exec/status_macros.h"
 
 namespace bccskel::python {
 
@@ -52,6 +53,17 @@ class Job {
 // stopped and the exception propagates. Needs: the interpreter's lock.
 // Throws: the error of the work as ThrowIfError() does.
 void RunJob(const pybind11::object& progress, const std::function<absl::Status(Job&)>& work);
+
+// The same for work that returns an absl::StatusOr; returns its value.
+template <typename Work>
+auto RunFor(const pybind11::object& progress, const Work& work) {
+  typename decltype(work(std::declval<Job&>()))::value_type value;
+  RunJob(progress, [&](Job& job) -> absl::Status {
+    BCCSKEL_ASSIGN_OR_RETURN(value, work(job));
+    return absl::OkStatus();
+  });
+  return value;
+}
 
 // Throws the Python exception for an error: ValueError for INVALID_ARGUMENT, and so on.
 void ThrowIfError(const absl::Status& status);

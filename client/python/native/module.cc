@@ -76,16 +76,10 @@ struct Call {
 // Runs `compute(run)`, which returns an absl::StatusOr, as a job.
 template <typename Compute>
 auto RunCall(const Call& call, const Compute& compute) {
-  using Result = typename decltype(compute(std::declval<const Run&>()))::value_type;
-  Result result;
-  RunJob(call.progress, [&](Job& job) {
+  return RunFor(call.progress, [&](Job& job) {
     const Run run = call.RunIn(job);
-    absl::StatusOr<Result> computed = compute(run);
-    absl::Status status = computed.status();
-    if (status.ok()) result = *std::move(computed);
-    return status;
+    return compute(run);
   });
-  return result;
 }
 
 std::shared_ptr<Outcome> Mask(const py::array& array, const Placement& placement,
@@ -132,14 +126,11 @@ std::shared_ptr<Outcome> LatticeSkeleton(const Lattice& lattice, const Options& 
 }
 
 Lattice ReadLattice(const std::string& path) {
-  Volume volume;
-  RunJob(py::none(), [&](Job& job) -> absl::Status {
+  return std::make_shared<Volume>(RunFor(py::none(), [&](Job& job) {
     exec::Context context;
     context.stop = job.stop();
-    BCCSKEL_ASSIGN_OR_RETURN(volume, ReadVolumeFile(path, {}, context));
-    return absl::OkStatus();
-  });
-  return std::make_shared<Volume>(std::move(volume));
+    return ReadVolumeFile(path, {}, context);
+  }));
 }
 
 // Shape (points, 3): x, y, z of the lattice.
@@ -200,22 +191,15 @@ py::tuple ReadImage(const std::string& path, const Options& options) {
 
 // (outcome, world, unit); the texts are empty if the document does not state them.
 py::tuple ReadJson(const std::string& path) {
-  const auto outcome = std::make_shared<Outcome>();
-  RunJob(py::none(), [&](Job&) -> absl::Status {
-    BCCSKEL_ASSIGN_OR_RETURN(*outcome, ReadResult(path));
-    return absl::OkStatus();
-  });
+  const auto outcome =
+      std::make_shared<Outcome>(RunFor(py::none(), [&](Job&) { return ReadResult(path); }));
   const auto known = [](const std::string& text) { return text == "unknown" ? "" : text; };
   return py::make_tuple(outcome, known(outcome->read->world), known(outcome->read->unit));
 }
 
 // (vertices, triangles)
 py::tuple ReadMesh(const std::string& path) {
-  TriangleMesh mesh;
-  RunJob(py::none(), [&](Job&) -> absl::Status {
-    BCCSKEL_ASSIGN_OR_RETURN(mesh, ReadMeshFile(path));
-    return absl::OkStatus();
-  });
+  const TriangleMesh mesh = RunFor(py::none(), [&](Job&) { return ReadMeshFile(path); });
   const auto rows = [](size_t n) { return static_cast<py::ssize_t>(n); };
   const py::array_t<double> vertices({rows(mesh.vertices.size()), rows(3)},
                                      mesh.vertices.front().data());
@@ -229,13 +213,11 @@ Server ConnectTo(const client::Endpoint& endpoint) {
 }
 
 py::dict Describe(const client::Endpoint& endpoint, double timeout) {
-  client::ServerDescription description;
-  RunJob(py::none(), [&](Job&) -> absl::Status {
+  const std::chrono::milliseconds most(static_cast<int64_t>(1000 * timeout));
+  using Description = absl::StatusOr<client::ServerDescription>;
+  const auto description = RunFor(py::none(), [&](Job&) -> Description {
     BCCSKEL_ASSIGN_OR_RETURN(const auto connection, client::Connect(endpoint));
-    BCCSKEL_ASSIGN_OR_RETURN(
-        description,
-        connection->Describe(std::chrono::milliseconds(static_cast<int64_t>(1000 * timeout))));
-    return absl::OkStatus();
+    return connection->Describe(most);
   });
   py::dict dict;
   dict["server_version"] = description.server_version;

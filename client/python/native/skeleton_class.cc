@@ -180,14 +180,9 @@ std::vector<std::string> WithOptionNames(std::vector<std::string> messages) {
   return messages;
 }
 
-std::optional<TreeOrder> TreesOf(const Outcome& outcome) {
-  if (!outcome.root.has_value()) return std::nullopt;
-  return OrderTrees(outcome.result.graph, *outcome.root);
-}
-
 // The positions in the trees; None if none were requested.
 py::object OrderOf(const Outcome& outcome) {
-  const std::optional<TreeOrder> trees = TreesOf(outcome);
+  const auto trees = exporting::OrderOf(outcome.result.graph, outcome.root);
   if (!trees.has_value()) return py::none();
   const TreeOrder& order = *trees;
   const auto number = [](uint32_t n) { return n == kNoRow ? int64_t{-1} : int64_t{n}; };
@@ -228,18 +223,19 @@ absl::Status CheckHeldByRead(SkeletonFormat format) {
 // As `bccskel convert`.
 absl::StatusOr<std::string> SaveRead(const Outcome& outcome, const std::string& path,
                                      const Saying& saying, const std::stop_token& stop) {
-  return exporting::WriteGraphFile(path,
-                                   {.graph = outcome.result.graph,
-                                    .context = {.labels = {},
-                                                .facts = exporting::MethodFactsOf(*outcome.read),
-                                                .order = TreesOf(outcome)},
-                                    .world = saying.world,
-                                    .swc = saying.swc},
-                                   stop);
+  return exporting::WriteGraphFile(
+      path,
+      {.graph = outcome.result.graph,
+       .context = {.labels = {},
+                   .facts = exporting::MethodFactsOf(*outcome.read),
+                   .order = exporting::OrderOf(outcome.result.graph, outcome.root)},
+       .world = saying.world,
+       .swc = saying.swc},
+      stop);
 }
 
-absl::Status SaveIn(const Outcome& outcome, const std::string& path, const Saying& saying,
-                    const std::stop_token& stop, std::string& note) {
+absl::StatusOr<std::string> SaveIn(const Outcome& outcome, const std::string& path,
+                                   const Saying& saying, const std::stop_token& stop) {
   BCCSKEL_ASSIGN_OR_RETURN(const SkeletonFormat format, exporting::SkeletonFormatOf(path));
   if (format == SkeletonFormat::kVolume && outcome.result.thin.PointCount() == 0 &&
       outcome.result.skeleton_points > 0) {
@@ -247,8 +243,7 @@ absl::Status SaveIn(const Outcome& outcome, const std::string& path, const Sayin
   }
   if (outcome.read.has_value()) {
     BCCSKEL_RETURN_IF_ERROR(CheckHeldByRead(format));
-    BCCSKEL_ASSIGN_OR_RETURN(note, SaveRead(outcome, path, saying, stop));
-    return absl::OkStatus();
+    return SaveRead(outcome, path, saying, stop);
   }
   const bool shown = exporting::ShowsObject(format);
   cli::LocalTeam team(shown ? 0 : 1, stop);
@@ -264,30 +259,25 @@ absl::Status SaveIn(const Outcome& outcome, const std::string& path, const Sayin
                                       .world = saying.world,
                                       .swc = saying.swc,
                                       .draw = view::DrawSubject};
-  BCCSKEL_ASSIGN_OR_RETURN(note, exporting::WriteSkeletonFile(path, subject));
-  return absl::OkStatus();
+  return exporting::WriteSkeletonFile(path, subject);
 }
 
 // What the format could not hold; empty if it held everything.
 std::string Save(const Outcome& outcome, const std::string& path, const std::string& title,
                  const std::string& world, const std::string& unit,
                  const std::optional<double>& swc_step) {
-  std::string note;
   if (swc_step.has_value() && !(*swc_step >= 0)) {
     throw py::value_error(absl::StrCat("swc_step ", *swc_step, ": must be 0 or more"));
   }
   const Saying saying = {title, {world, unit}, {.step = swc_step}};
-  RunJob(py::none(), [&](Job& job) { return SaveIn(outcome, path, saying, job.stop(), note); });
-  return note;
+  return RunFor(py::none(), [&](Job& job) { return SaveIn(outcome, path, saying, job.stop()); });
 }
 
 // Shape: [z, y, x] of the mask's grid.
 py::array_t<uint32_t> Draw(const Outcome& outcome, EdgeImage kind) {
-  SparseImage image;
-  RunJob(py::none(), [&](Job& job) -> absl::Status {
+  const SparseImage image = RunFor(py::none(), [&](Job& job) {
     cli::LocalTeam team(0, job.stop());
-    BCCSKEL_ASSIGN_OR_RETURN(image, ImageOf(outcome, kind, team.context()));
-    return absl::OkStatus();
+    return ImageOf(outcome, kind, team.context());
   });
   py::array_t<uint32_t> array({outcome.grid->nz, outcome.grid->ny, outcome.grid->nx});
   std::fill_n(array.mutable_data(), array.size(), 0);
@@ -300,11 +290,9 @@ py::array_t<uint32_t> Draw(const Outcome& outcome, EdgeImage kind) {
 
 // Shape (nodes, 3): x, y, z. Needs: a grid.
 py::array_t<int64_t> NodeVoxelsOf(const Outcome& outcome) {
-  std::vector<std::array<int32_t, 3>> voxels;
-  RunJob(py::none(), [&](Job& job) -> absl::Status {
+  const auto voxels = RunFor(py::none(), [&](Job& job) {
     cli::LocalTeam team(1, job.stop());
-    BCCSKEL_ASSIGN_OR_RETURN(voxels, VoxelsOfNodes(outcome, team.context()));
-    return absl::OkStatus();
+    return VoxelsOfNodes(outcome, team.context());
   });
   py::array_t<int64_t> array({static_cast<py::ssize_t>(voxels.size()), py::ssize_t{3}});
   int64_t* to = array.mutable_data();
@@ -320,8 +308,7 @@ absl::Status WriteEachLabel(const std::string& path, const LabelList& labels,
   for (const auto& [label, outcome] : labels) {
     const auto write = [&, label = label, outcome = outcome]() -> absl::Status {
       BCCSKEL_ASSIGN_OR_RETURN(const std::string own, exporting::MakePathFor(path, label));
-      std::string note;  // in the file
-      return SaveIn(*outcome, own, {absl::StrCat("label ", label), world, {}}, stop, note);
+      return SaveIn(*outcome, own, {absl::StrCat("label ", label), world, {}}, stop).status();
     };
     BCCSKEL_RETURN_IF_ERROR(writers.Add(write));
   }
@@ -351,12 +338,9 @@ absl::StatusOr<std::string> WriteLabels(const std::string& path, const LabelList
 // What the format could not hold; empty if it held everything.
 std::string SaveLabels(const std::string& path, const LabelList& labels, const std::string& world,
                        const std::string& unit) {
-  std::string note;
-  RunJob(py::none(), [&](Job& job) -> absl::Status {
-    BCCSKEL_ASSIGN_OR_RETURN(note, WriteLabels(path, labels, {world, unit}, job.stop()));
-    return absl::OkStatus();
+  return RunFor(py::none(), [&](Job& job) {
+    return WriteLabels(path, labels, {world, unit}, job.stop());
   });
-  return note;
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 #include "client/view/render/picture.h"
 
-#include <cairo.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <png.h>
 
 #include <utility>
 #include <vector>
@@ -79,23 +79,14 @@ struct Pixels {
   uint32_t At(int x, int y) const { return values[static_cast<size_t>(y * width + x)]; }
 };
 
-Pixels Decoded(std::string png) {
-  const auto read = [](void* from, unsigned char* bytes, unsigned count) {
-    auto& left = *static_cast<std::string*>(from);
-    left.copy(reinterpret_cast<char*>(bytes), count);
-    left.erase(0, count);
-    return CAIRO_STATUS_SUCCESS;
-  };
-  cairo_surface_t* image = cairo_image_surface_create_from_png_stream(read, &png);
-  cairo_surface_flush(image);
-  Pixels pixels = {cairo_image_surface_get_width(image), {}};
-  for (int y = 0; y < cairo_image_surface_get_height(image); ++y) {
-    const auto* row = reinterpret_cast<const uint32_t*>(cairo_image_surface_get_data(image) +
-                                                        static_cast<ptrdiff_t>(y) *
-                                                            cairo_image_surface_get_stride(image));
-    pixels.values.insert(pixels.values.end(), row, row + pixels.width);
-  }
-  cairo_surface_destroy(image);
+Pixels Decoded(const std::string& png) {
+  png_image image = {};
+  image.version = PNG_IMAGE_VERSION;
+  png_image_begin_read_from_memory(&image, png.data(), png.size());
+  image.format = PNG_FORMAT_RGBA;
+  Pixels pixels = {static_cast<int>(image.width), {}};
+  pixels.values.resize(size_t{image.width} * image.height);
+  png_image_finish_read(&image, nullptr, pixels.values.data(), 0, nullptr);
   return pixels;
 }
 
