@@ -16,28 +16,28 @@ namespace {
 constexpr int kBandRows = 16;  // pixels
 
 // The mean color of a pixel's samples.
-uint32_t PixelAt(const Band& band, int x, int row) {
+uint32_t PixelAt(const Band& band, int x, int row, int samples) {
   LinearColor sum = {};
-  for (int j = 0; j < kSamplesPerPixel; ++j) {
-    for (int i = 0; i < kSamplesPerPixel; ++i) {
-      const LinearColor color = ColorAt(band, kSamplesPerPixel * x + i, kSamplesPerPixel * row + j);
+  for (int j = 0; j < samples; ++j) {
+    for (int i = 0; i < samples; ++i) {
+      const LinearColor color = ColorAt(band, samples * x + i, samples * row + j);
       for (size_t n = 0; n < 3; ++n) sum[n] += color[n];
     }
   }
   uint32_t pixel = 0xff;
+  const auto count = static_cast<float>(samples * samples);
   for (const float part : sum) {
-    pixel = pixel << 8 |
-            static_cast<uint32_t>(std::lround(255 * part / (kSamplesPerPixel * kSamplesPerPixel)));
+    pixel = pixel << 8 | static_cast<uint32_t>(std::lround(255 * part / count));
   }
   return pixel;
 }
 
-void DrawBand(const Geometry& geometry, int top, int rows, RgbImage& image) {
-  Band band(kSamplesPerPixel * image.width, kSamplesPerPixel * top, kSamplesPerPixel * rows);
+void DrawBand(const Geometry& geometry, int top, int rows, int samples, RgbImage& image) {
+  Band band(samples * image.width, samples * top, samples * rows);
   band.Draw(geometry);
   auto pixel = image.pixels.begin() + static_cast<ptrdiff_t>(top) * image.width;
   for (int row = 0; row < rows; ++row) {
-    for (int x = 0; x < image.width; ++x) *pixel++ = PixelAt(band, x, row);
+    for (int x = 0; x < image.width; ++x) *pixel++ = PixelAt(band, x, row, samples);
   }
 }
 
@@ -61,14 +61,14 @@ Geometry GlassOf(const view::DisplaySurface& surface, const Projection& projecti
   return geometry;
 }
 
-absl::StatusOr<RgbImage> ImageOf(const Geometry& geometry, int width, int height,
+absl::StatusOr<RgbImage> ImageOf(const Geometry& geometry, int width, int height, int samples,
                                  const exec::Context& context) {
   RgbImage image = {width, height, {}};
   image.pixels.resize(static_cast<size_t>(width) * static_cast<size_t>(height));
   std::atomic<int> next = 0;
   context.Offer([&](int) {
     for (int top; !context.ShouldStop() && (top = kBandRows * next++) < height;) {
-      DrawBand(geometry, top, std::min(kBandRows, height - top), image);
+      DrawBand(geometry, top, std::min(kBandRows, height - top), samples, image);
     }
   });
   BCCSKEL_RETURN_IF_ERROR(context.StopStatus());

@@ -20,9 +20,6 @@ struct RgbImage {
   std::vector<uint32_t> pixels;
 };
 
-// Samples, the units of a Geometry, along each axis of a pixel.
-inline constexpr int kSamplesPerPixel = 3;
-
 // World points as vertices of a Geometry. Units: the projection's are samples.
 std::vector<SurfaceVertex> VerticesOf(const std::vector<WorldPoint>& points,
                                       const Projection& projection);
@@ -30,9 +27,10 @@ std::vector<SurfaceVertex> VerticesOf(const std::vector<WorldPoint>& points,
 // The object alone, as glass.
 Geometry GlassOf(const view::DisplaySurface& surface, const Projection& projection);
 
-// Equal values give equal pixels for any number of threads.
+// A pixel is the mean of `samples` samples, the units of a geometry, along each of its axes. Equal
+// values give equal pixels for any number of threads.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
-absl::StatusOr<RgbImage> ImageOf(const Geometry& geometry, int width, int height,
+absl::StatusOr<RgbImage> ImageOf(const Geometry& geometry, int width, int height, int samples,
                                  const exec::Context& context);
 
 // The image as a PNG file. Errors: RESOURCE_EXHAUSTED when the encoder gets no memory.

@@ -22,7 +22,9 @@ namespace bccskel::exporting {
 namespace {
 
 constexpr double kWidth = 1240, kHeight = 860;
-constexpr double kPixelsPerUnit = 1.5;  // of the glass images
+// Of the glass images; the samples along each axis of a pixel.
+constexpr double kPixelsPerUnit = 1.5;
+constexpr int kSamplesPerPixel = 2;
 constexpr double kMargin = 26;
 // The glass images end inside the panels, whose corners are round.
 constexpr double kRim = 8;
@@ -58,7 +60,8 @@ absl::StatusOr<std::string> GlassImage(const Scene& scene, const View& view,
   BCCSKEL_ASSIGN_OR_RETURN(
       const RgbImage image,
       ImageOf(GlassOf(scene.surface, projection), static_cast<int>(size.width * kPixelsPerUnit),
-              static_cast<int>(size.height * kPixelsPerUnit), scene.subject.context));
+              static_cast<int>(size.height * kPixelsPerUnit), kSamplesPerPixel,
+              scene.subject.context));
   return PngOf(image);
 }
 

@@ -20,7 +20,9 @@
 namespace bccskel::view {
 namespace {
 
-using exporting::Geometry, exporting::LinearColor, exporting::kSamplesPerPixel;
+using exporting::Geometry, exporting::LinearColor;
+
+constexpr int kSamplesPerPixel = 3;  // along each axis
 
 // Space for text above and below the object, in font sizes.
 constexpr double kWordsAbove = 6, kWordsBelow = 4;
@@ -213,7 +215,7 @@ absl::StatusOr<std::string> RenderPng(const ResultDocument& result, const Displa
                                       const PictureOptions& options, const exec::Context& context) {
   BCCSKEL_ASSIGN_OR_RETURN(exporting::RgbImage image,
                            exporting::ImageOf(GeometryOf(result, surface, options), options.width,
-                                              options.height, context));
+                                              options.height, kSamplesPerPixel, context));
   const Surface drawn(cairo_image_surface_create_for_data(
                           reinterpret_cast<unsigned char*>(image.pixels.data()), CAIRO_FORMAT_RGB24,
                           image.width, image.height, 4 * image.width),

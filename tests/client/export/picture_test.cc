@@ -41,9 +41,8 @@ TEST(GlassImageTest, PaintsWhereTheObjectIsAndNothingElse) {
   surface.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   surface.triangles = {{0, 1, 2}};
   const View front = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  constexpr double kWidth = 60.0 * kSamplesPerPixel, kHeight = 40.0 * kSamplesPerPixel;
-  const Projection projection(front, surface.vertices, {kWidth, kHeight}, 0);
-  const RgbImage image = *ImageOf(GlassOf(surface, projection), 60, 40, {});
+  const Projection projection(front, surface.vertices, {120, 80}, 0);
+  const RgbImage image = *ImageOf(GlassOf(surface, projection), 60, 40, 2, {});
   const auto pixel = [&](size_t x, size_t y) { return image.pixels[60 * y + x]; };
   EXPECT_EQ(image.pixels.size(), 60 * 40);
   EXPECT_EQ(pixel(0, 0), 0xfff8fafc);
