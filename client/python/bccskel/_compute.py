@@ -211,10 +211,11 @@ class _Functions:
         vertices: shape (n, 3), x, y, z; or a `Mesh`, then without faces.
         faces: shape (m, 3), indices of vertices.
         options: those of `bccskel skeletonize` with underscores. points=850_000 (default) or
-            spacing=0.5 is the resolution; fill='parity' or 'winding' defines the inside
-            (large holes need 'winding'); thin_parts='sample' leaves parts thinner than two lattice units as the lattice meets them,
-            'keep' (default) adds the points that they need to stay whole; lattice_axes='shape'
-            (default) makes the result independent of the pose, 'world' keeps x, y, z.
+            spacing=0.5 is the resolution; fill='parity' or 'winding' defines the inside (large
+            holes need 'winding'); thin_parts='sample' leaves parts thinner than two lattice units
+            as the lattice meets them, 'keep' (default) adds the points that they need to stay
+            whole; lattice_axes='shape' (default) makes the result independent of the pose, 'world'
+            keeps x, y, z.
 
         Otherwise as `skeletonize()`; coordinates of the result are x, y, z.
 
