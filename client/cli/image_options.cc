@@ -70,13 +70,16 @@ void ReadLabels(const std::string& given, std::vector<uint64_t>& labels) {
   const std::optional<uint64_t> first = ParseCount(given.substr(0, dash));
   const auto last = dash == given.npos ? first : ParseCount(given.substr(dash + 1));
   if (!first.has_value() || !last.has_value()) {
-    refuse(std::string("must be a whole number from 0 on or a range, such as 3,7 or 1-85") +
+    refuse(std::string("must be a whole number from 1 on or a range, such as 3,7 or 1-85") +
            (given.starts_with('-') ? "; skeletonize takes negative values with --range" : ""));
   }
   const uint64_t low = *first, high = *last;
   if (low > high) refuse("the first label is above the last");
-  if (low == 0 && dash != given.npos) {
-    refuse("0 is the background; labels are counted from 1, so write 1-" + std::to_string(high));
+  if (low == 0) {
+    refuse(dash == given.npos
+               ? "0 is the background; skeletonize selects its voxels with --range 0,0"
+               : "0 is the background; labels are counted from 1, so write 1-" +
+                     std::to_string(high));
   }
   if (high - low >= kMostOfRange) {
     refuse("is more than " + std::to_string(kMostOfRange) + " labels; skeletonize has --range");

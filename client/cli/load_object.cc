@@ -233,6 +233,13 @@ absl::StatusOr<InputKind> InputKindOf(const std::string& path) {
   }
   if (BeginsLikeImage(path)) return InputKind::kImage;
   if (BeginsLikeMesh(path)) return InputKind::kMesh;
+  constexpr std::array kResults = {".json", ".swc", ".graphml", ".csv", ".html", ".svg"};
+  if (std::ranges::any_of(kResults, [&](const char* ending) { return name.ends_with(ending); })) {
+    return absl::InvalidArgumentError(
+        path +
+        ": is no mesh, volume or image; bccskel view shows a result in .json, and bccskel "
+        "convert writes it in other formats");
+  }
   return absl::InvalidArgumentError(
       path +
       ": format not supported; there are meshes (.obj, .stl, .ply, .off, .glb, .gltf, .vtk, .vtp, "

@@ -337,12 +337,12 @@ absl::StatusOr<Object> LoadOrMake(const SkeletonizeArguments& arguments, const S
 ExitCode RunWith(const SharedWork* work, const SkeletonizeArguments& given,
                  const std::stop_token& stop) {
   const Clock::time_point start = Clock::now();
-  if (given.place == Place::kHere) {
-    Note("computing on this machine, as with --local; --server HOST:PORT names a server");
-  }
   LocalTeam team(given.common.threads, stop);
   absl::StatusOr<Object> object = LoadOrMake(given, work, team.context());
   if (!object.ok()) return Fail(object.status());
+  if (given.place == Place::kHere) {
+    Note("computing on this machine, as with --local; --server HOST:PORT names a server");
+  }
   const SkeletonizeArguments arguments = ForInput(given, *object);
   if (arguments.waiting == Waiting::kDetach) {
     return SubmitDetached(arguments, object->volume, stop);

@@ -59,8 +59,8 @@ struct alignas(128) SweepWorker {
   // one after another completes the pass, take turns.
   SweepPart& PartOf(size_t slab, int steps);
   // The steps that a slab can take once the borders have taken their first; they take each of the
-  // others after all workers have met. A step of a slab reads
-  // what the previous step left in the adjacent slabs, and their points, which they remove later.
+  // others after all workers have met. A step of a slab reads what the previous step left in the
+  // adjacent slabs, and their points, which they remove later.
   int ReachOf(size_t slab, int steps) const;
   // Calls visit(SweepPart&) for all parts.
   template <typename Visit>

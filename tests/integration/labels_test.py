@@ -193,7 +193,7 @@ class LabelsTest(harness.TestCase):
                  "no voxel has the label 77; "),
                 (("--min-voxels", "1M", "-o", self.path("a.vtp")), 3,
                  "no requested label has 1000000 voxels or more (--min-voxels); "),
-                (("--label", "0", "-o", self.path("a.vtp")), 3, "background"),
+                (("--label", "0", "-o", self.path("a.vtp")), 2, "background"),
                 (("-o", self.path("missing/{label}.swc")), 8, "missing")):
             with self.subTest(words):
                 done = harness.bccskel("labels", self.image, *words)

@@ -49,6 +49,11 @@ class UnnamedTest(harness.TestCase):
         self.assertIn("save another image as NIfTI or NRRD, which keep its place, or as TIFF, PNG or "
                       ".npy", done.stderr)
 
+    def test_results_are_no_input(self):
+        for ending in ("json", "swc", "html"):
+            self.fail_with(3, "bccskel view shows a result in .json", "skeletonize",
+                           self.write(f"s.{ending}", b"{}"), "-o", self.path("t.swc"))
+
     def test_standard_input_is_read_if_it_is_a_file(self):
         with open(self.write("ring", NRRD), "rb") as file:
             done = harness.bccskel("info", "/dev/stdin", stdin=file)

@@ -142,12 +142,14 @@ const Wrong kWrong[] = {
     {"endless_spacing", "voxelize a.off -o a.exr --spacing inf",
      "--spacing: must be finite and positive, not inf"},
     {"label_by_name", "skeletonize a.tif -o a.swc --label liver",
-     "--label liver: must be a whole number from 0 on or a range, such as 3,7 or 1-85\n"},
+     "--label liver: must be a whole number from 1 on or a range, such as 3,7 or 1-85\n"},
     {"no_nested_command", "bench", "a command is required: core, server\n"},
     {"unknown_nested_command", "bench cores", "there is no command bench cores"},
     {"negative_label", "skeletonize a.tif -o a.swc --label 4,-5",
-     "--label -5: must be a whole number from 0 on or a range, such as 3,7 or 1-85; skeletonize "
+     "--label -5: must be a whole number from 1 on or a range, such as 3,7 or 1-85; skeletonize "
      "takes negative values with --range"},
+    {"background_alone", "skeletonize a.tif -o a.swc --label 0",
+     "0 is the background; skeletonize selects its voxels with --range 0,0"},
     {"label_of_the_background", "labels a.tif -o a.vtp --label 0-85",
      "0 is the background; labels are counted from 1, so write 1-85"},
     {"labels_backwards", "labels a.tif -o a.vtp --label 9-3",
