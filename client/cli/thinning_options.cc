@@ -51,6 +51,12 @@ void AddPreparing(CLI::App& command, PreparingOptions& preparing) {
   command.add_flag_callback(
       "--fill-cavities", [&preparing] { preparing.cavities = CavityFilling::kOn; },
       "Fill the cavities of the object; each leaves a closed surface in the skeleton");
+  command
+      .add_option(
+          "--join-gaps", preparing.join_gaps,
+          "Join components at most X world units apart, the nearest first (default 0: none)")
+      ->check(Within(0, kMaxGapToJoin))
+      ->option_text("X");
   AddCount<uint64_t>(
       command, "--min-component",
       [&preparing](uint64_t points) {

@@ -75,8 +75,8 @@ absl::Status CheckImages(const SkeletonizeArguments& arguments) {
   if (arguments.skeletonize.preparing.Wanted()) {
     return absl::InvalidArgumentError(
         "--branch-image and --curve-image show the original voxels and cannot be combined with "
-        "--denoise, --fill-cavities, --cut-loops, --min-component, --min-component-volume or "
-        "--keep-largest");
+        "--denoise, --fill-cavities, --join-gaps, --cut-loops, --min-component, "
+        "--min-component-volume or --keep-largest");
   }
   const absl::StatusOr<InputKind> kind = InputKindOf(arguments.input, arguments.image);
   if (!kind.ok() || *kind == InputKind::kImage) return absl::OkStatus();

@@ -261,6 +261,7 @@ class Reader {
     ReadObject(place, Optional("denoise_passes", preparing.denoise_passes),
                Optional("cavities", cavities), Optional("tunnel_width", preparing.tunnel_width),
                Optional("tunnel_cells", preparing.tunnel_cells),
+               Optional("join_gaps", preparing.join_gaps),
                Optional("min_component_points", preparing.min_component_points),
                Optional("min_component_volume", preparing.min_component_volume),
                Optional("components", components), Optional("border", border));

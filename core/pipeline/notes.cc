@@ -221,6 +221,8 @@ std::string WordsFor(const PreparingStep& step) {
       return Counted(count, "cavity", "cavities") + " filled";
     case PreparingStepKind::kFillTunnels:
       return Counted(count, "tunnel", "tunnels") + " filled";
+    case PreparingStepKind::kJoinGaps:
+      return Counted(count, "gap", "gaps") + " joined";
     case PreparingStepKind::kDropSmallComponents:
       return Counted(count, "small component", "small components") + " dropped";
     case PreparingStepKind::kKeepLargestComponent:

@@ -26,6 +26,7 @@ std::vector<OptionFact> FactsOf(const SkeletonizeOptions& options) {
           {"cavities", fills ? "filled" : "kept"},
           NumberFact("tunnel_width", preparing.tunnel_width),
           NumberFact("tunnel_cells", preparing.tunnel_cells),
+          NumberFact("join_gaps", preparing.join_gaps),
           NumberFact("min_component_points", preparing.min_component_points),
           NumberFact("min_component_volume", preparing.min_component_volume),
           {"components", one ? "largest" : "all"},

@@ -47,10 +47,11 @@ inline constexpr Words<ObjectSource, 4> kSourceWords = {
 inline constexpr Words<Border, 3> kBorderWords = {{{"ends", Border::kEnds},
                                                    {"continues", Border::kContinues},
                                                    {"slice", Border::kContinuesAcrossSlice}}};
-inline constexpr Words<PreparingStepKind, 5> kPreparingWords = {
+inline constexpr Words<PreparingStepKind, 6> kPreparingWords = {
     {{"denoise", PreparingStepKind::kDenoise},
      {"fill-cavities", PreparingStepKind::kFillCavities},
      {"fill-tunnels", PreparingStepKind::kFillTunnels},
+     {"join-gaps", PreparingStepKind::kJoinGaps},
      {"drop-small-components", PreparingStepKind::kDropSmallComponents},
      {"keep-largest-component", PreparingStepKind::kKeepLargestComponent}}};
 

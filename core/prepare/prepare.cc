@@ -9,6 +9,7 @@
 #include "core/prepare/denoise.h"
 #include "core/prepare/fill_cavities.h"
 #include "core/prepare/fill_tunnels.h"
+#include "core/prepare/join_gaps.h"
 #include "core/prepare/keep_components.h"
 
 namespace bccskel {
@@ -36,6 +37,7 @@ class Preparation {
       BCCSKEL_RETURN_IF_ERROR(Take(PreparingStepKind::kFillCavities,
                                    FillCavities(prepared_.object, options_.max_bricks, context_)));
     }
+    if (options_.join_gaps > 0) BCCSKEL_RETURN_IF_ERROR(RunJoinGaps());
     const uint64_t least =
         std::max(options_.min_component_points,
                  PointsIn(options_.min_component_volume, prepared_.object.placement()));
@@ -67,6 +69,17 @@ class Preparation {
     }
     prepared_.steps.push_back(step);
     return absl::OkStatus();
+  }
+
+  absl::Status RunJoinGaps() {
+    const double unit = WorldUnitsPerLatticeUnit(prepared_.object.placement());
+    const double gap = options_.join_gaps / unit;
+    if (gap > kMaxGap) {
+      return absl::InvalidArgumentError(
+          absl::StrFormat("gaps to join %g: must be at most %g, that is %g edges of the cubic cell",
+                          options_.join_gaps, kMaxGap * unit, kMaxGap / 2));
+    }
+    return Take(PreparingStepKind::kJoinGaps, JoinGaps(prepared_.object, gap, memory_, context_));
   }
 
   absl::Status RunFillTunnels() {
@@ -115,6 +128,10 @@ absl::Status CheckPreparingOptions(const PreparingOptions& options) {
     if (width >= 0 && width <= kMaxTunnelWidthToFill) continue;
     return absl::InvalidArgumentError(absl::StrFormat(
         "width of tunnels to fill %g: must be 0 to %g", width, kMaxTunnelWidthToFill));
+  }
+  if (!(options.join_gaps >= 0 && options.join_gaps <= kMaxGapToJoin)) {
+    return absl::InvalidArgumentError(
+        absl::StrFormat("gaps to join %g: must be 0 to %g", options.join_gaps, kMaxGapToJoin));
   }
   if (!(options.min_component_volume >= 0 && std::isfinite(options.min_component_volume))) {
     return absl::InvalidArgumentError(

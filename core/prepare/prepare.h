@@ -32,6 +32,9 @@ struct PreparingOptions {
   int32_t denoise_passes = 0;
   // Turns all background that does not reach the outside into object.
   CavityFilling cavities = CavityFilling::kOff;
+  // Joins components whose nearest points are at most this far apart, in world units, up to 256
+  // half edges of the cubic cell, by bridges one point thick; 0 joins none.
+  double join_gaps = 0;
   // Drops components with fewer points.
   uint64_t min_component_points = 0;
   ComponentSize component_size = ComponentSize::kPoints;
@@ -52,14 +55,16 @@ struct PreparingOptions {
 
   // Whether anything is to be done.
   bool Wanted() const {
-    return denoise_passes > 0 || cavities == CavityFilling::kOn || tunnel_width > 0 ||
-           tunnel_cells > 0 || min_component_points > 0 || min_component_volume > 0 ||
-           components == KeptComponents::kLargest;
+    return denoise_passes > 0 || cavities == CavityFilling::kOn || join_gaps > 0 ||
+           tunnel_width > 0 || tunnel_cells > 0 || min_component_points > 0 ||
+           min_component_volume > 0 || components == KeptComponents::kLargest;
   }
   friend bool operator==(const PreparingOptions&, const PreparingOptions&) = default;
 };
 inline constexpr int32_t kMaxDenoisePasses = 16;
-inline constexpr double kMaxTunnelWidthToFill = 1e9;  // in any unit more than can be filled
+// In any unit more than can be filled.
+inline constexpr double kMaxTunnelWidthToFill = 1e9;
+inline constexpr double kMaxGapToJoin = 1e9;
 
 // The width of tunnels in lattice units for PreparingOptions::tunnel_cells, where a voxel is one
 // cell. Noise leaves gaps as high as the longest edge of a cell, so the width is at least 1.25
@@ -75,12 +80,13 @@ enum class PreparingStepKind : uint8_t {
   kDropSmallComponents,
   kKeepLargestComponent,
   kFillTunnels,
+  kJoinGaps,
 };
 
 // What a step did.
 struct PreparingStep {
   PreparingStepKind kind = PreparingStepKind::kDenoise;
-  // Passes that changed something, cavities or tunnels filled, or components dropped.
+  // Passes that changed something, cavities or tunnels filled, gaps joined, or components dropped.
   uint64_t count = 0;
   uint64_t points_added = 0;
   uint64_t points_removed = 0;
@@ -94,7 +100,7 @@ struct PreparedObject {
   std::vector<PreparingStep> steps;  // the requested steps, in order
 };
 
-// Runs the requested steps. Filling tunnels takes memory from the budget.
+// Runs the requested steps. Filling tunnels and joining gaps take memory from the budget.
 // `cells_per_voxel`: how many edges of the cubic cell make an edge of a voxel, for tunnel_cells.
 // Errors: INVALID_ARGUMENT (options), RESOURCE_EXHAUSTED (more than max_bricks), those of the
 //         budget, CANCELLED, DEADLINE_EXCEEDED.

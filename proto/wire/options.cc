@@ -89,6 +89,7 @@ v1::PreparingOptions ToMessage(const PreparingOptions& preparing) {
   message.set_cavity_filling(EnumeratorOf(preparing.cavities, kCavityFillings));
   message.set_tunnel_width(preparing.tunnel_width);
   message.set_tunnel_cells(preparing.tunnel_cells);
+  message.set_join_gaps(preparing.join_gaps);
   message.set_min_component_points(preparing.min_component_points);
   message.set_min_component_volume(preparing.min_component_volume);
   message.set_kept_components(EnumeratorOf(preparing.components, kKeptComponents));
@@ -101,6 +102,7 @@ absl::StatusOr<PreparingOptions> FromMessage(const v1::PreparingOptions& message
   preparing.denoise_passes = message.denoise_passes();
   preparing.tunnel_width = message.tunnel_width();
   preparing.tunnel_cells = message.tunnel_cells();
+  preparing.join_gaps = message.join_gaps();
   preparing.min_component_points = message.min_component_points();
   preparing.min_component_volume = message.min_component_volume();
   BCCSKEL_ASSIGN_OR_RETURN(preparing.cavities,

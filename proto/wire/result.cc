@@ -58,6 +58,7 @@ constexpr std::pair<v1::PreparingStepKind, PreparingStepKind> kPreparingSteps[] 
     {v1::PREPARING_STEP_KIND_DENOISE, PreparingStepKind::kDenoise},
     {v1::PREPARING_STEP_KIND_FILL_CAVITIES, PreparingStepKind::kFillCavities},
     {v1::PREPARING_STEP_KIND_FILL_TUNNELS, PreparingStepKind::kFillTunnels},
+    {v1::PREPARING_STEP_KIND_JOIN_GAPS, PreparingStepKind::kJoinGaps},
     {v1::PREPARING_STEP_KIND_DROP_SMALL_COMPONENTS, PreparingStepKind::kDropSmallComponents},
     {v1::PREPARING_STEP_KIND_KEEP_LARGEST_COMPONENT, PreparingStepKind::kKeepLargestComponent}};
 

@@ -17,6 +17,7 @@ class SkeletonOptions(TypedDict, total=False):
     denoise: int
     fill_cavities: bool
     cut_loops: float
+    join_gaps: float
     min_component: int
     min_component_volume: float
     keep_largest: bool

@@ -52,13 +52,15 @@ TEST(ArgumentsTest, RefusesAKindThatTheMethodDoesNotGive) {
 TEST(ArgumentsTest, SkeletonizeAndLabelsTakePreparing) {
   const PreparingOptions expected = {.denoise_passes = 2,
                                      .cavities = CavityFilling::kOn,
+                                     .join_gaps = 0.5,
                                      .min_component_points = 30,
                                      .min_component_volume = 1.5,
                                      .components = KeptComponents::kLargest,
                                      .tunnel_width = 2.5};
   const std::vector<const char*> options = {
       "--denoise",       "2",  "--fill-cavities",        "--cut-loops", "2.5",
-      "--min-component", "30", "--min-component-volume", "1.5",         "--keep-largest"};
+      "--min-component", "30", "--min-component-volume", "1.5",         "--keep-largest",
+      "--join-gaps",     "0.5"};
   const auto with = [&](std::vector<const char*> words) {
     words.insert(words.end(), options.begin(), options.end());
     return Parse(words);

@@ -60,6 +60,7 @@ TEST(ResultDocumentTest, KnowsHowTheObjectWasPrepared) {
   exporting::Sample sample = exporting::SampleOf(Shape::kTorus);
   sample.result.options.preparing = {.denoise_passes = 2,
                                      .cavities = CavityFilling::kOn,
+                                     .join_gaps = 1.25,
                                      .min_component_points = 7,
                                      .min_component_volume = 0.25,
                                      .components = KeptComponents::kLargest,

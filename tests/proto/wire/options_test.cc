@@ -129,6 +129,7 @@ TEST(OptionsRoundTrip, KeepsPreparing) {
     for (KeptComponents components : {KeptComponents::kAll, KeptComponents::kLargest}) {
       const PreparingOptions preparing = {.denoise_passes = 3,
                                           .cavities = cavities,
+                                          .join_gaps = 1.25,
                                           .min_component_points = uint64_t{1} << 40,
                                           .min_component_volume = 2.5,
                                           .components = components,

@@ -48,7 +48,7 @@ TEST(BoundaryLoops, PassAHoleAgainstTheSurface) {
   const Loops loops = LoopsOf(mesh);
   ASSERT_EQ(loops.size(), 1u);
   std::vector<uint32_t> loop = loops[0];
-  std::ranges::rotate(loop, std::ranges::find(loop, missing[0]));
+  std::rotate(loop.begin(), std::ranges::find(loop, missing[0]), loop.end());
   EXPECT_THAT(loop, ::testing::ElementsAreArray(missing));
   EXPECT_TRUE(Surplus(Closed(mesh)).empty());
 }
