@@ -113,7 +113,7 @@ absl::StatusOr<SkeletonizeResult> DurableClient::Fetch(const std::string& job, c
   SkeletonReading reading;
   BCCSKEL_RETURN_IF_ERROR(loop.Run([&](auto deadline) {
     const uint32_t before = reading.pieces();
-    const absl::Status status = stub_->ReadSkeleton(job, reading, calls.stop, deadline);
+    absl::Status status = stub_->ReadSkeleton(job, reading, calls.stop, deadline);
     if (reading.pieces() > before) loop.Progressed();
     return status;
   }));

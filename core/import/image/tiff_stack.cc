@@ -23,7 +23,7 @@ struct PageAxis {
 // Many programs name the only axis of pages a channel or time unless told otherwise.
 absl::StatusOr<int64_t> ChosenPage(const PageAxis& axis, const std::vector<PageAxis>& axes,
                                    const ImageOptions& options) {
-  const absl::StatusOr<int64_t> chosen = ChosenAlong(axis.letter, axis.length, options);
+  absl::StatusOr<int64_t> chosen = ChosenAlong(axis.letter, axis.length, options);
   const bool stated = (axis.letter == 'C' ? options.channel : options.time).has_value();
   const auto is_long = [](const PageAxis& other) { return other.length > 1; };
   if (chosen.ok() || stated || std::ranges::count_if(axes, is_long) != 1) return chosen;

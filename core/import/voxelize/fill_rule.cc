@@ -12,9 +12,9 @@ std::string DescribeDefects(const MeshReport& mesh) {
   const auto counted = [](uint64_t edges, const char* kind) {
     return absl::StrFormat("%d %s %s", edges, kind, edges == 1 ? "edge" : "edges");
   };
-  const std::string edges = counted(mesh.boundary_edges, "boundary") + ", " +
-                            counted(mesh.non_manifold_edges, "non-manifold") + ", " +
-                            counted(mesh.misoriented_edges, "misoriented");
+  std::string edges = counted(mesh.boundary_edges, "boundary") + ", " +
+                      counted(mesh.non_manifold_edges, "non-manifold") + ", " +
+                      counted(mesh.misoriented_edges, "misoriented");
   if (mesh.closure != SurfaceClosure::kOpen) return edges;
   const double percent = 100 * mesh.hole_share;
   if (percent < 0.01) return edges + "; holes: less than 0.01 % of the surface";
