@@ -26,7 +26,9 @@ CurvePoint Mix(const CurvePoint& a, const CurvePoint& b, double part) {
 // The same curve in `steps` steps of equal length. Needs: at least two points and one step.
 Curve Resampled(const Curve& curve, size_t steps) {
   const std::vector<double> ways = WaysAlong(curve);
-  Curve resampled = {curve.front()};
+  Curve resampled;
+  resampled.reserve(steps + 1);
+  resampled.push_back(curve.front());
   size_t behind = 1;
   for (size_t n = 1; n < steps; ++n) {
     const double way = ways.back() * static_cast<double>(n) / static_cast<double>(steps);
@@ -62,7 +64,9 @@ Curve Sampled(const SkeletonGraph& graph, const SkeletonEdge& edge,
 }  // namespace
 
 std::vector<double> WaysAlong(const std::vector<CurvePoint>& curve) {
-  std::vector<double> ways = {0};
+  std::vector<double> ways;
+  ways.reserve(std::max<size_t>(curve.size(), 1));
+  ways.push_back(0);
   for (size_t n = 1; n < curve.size(); ++n) {
     ways.push_back(ways.back() + DistanceBetween(curve[n - 1].at, curve[n].at));
   }

@@ -48,6 +48,7 @@ void AddNode(const SkeletonGraph& graph, const SkeletonNode& node, ComponentFigu
 std::vector<WorldPoint> SmoothCurve(const SkeletonGraph& graph, const SkeletonEdge& edge) {
   const std::span<const SkeletonPoint> points = graph.PointsOf(edge);
   std::vector<Coordinates> middles;
+  middles.reserve(points.size());
   for (const SkeletonPoint& p : points) {
     Coordinates& middle = middles.emplace_back(PlaceOf(p.point, kIsotropic));
     for (size_t axis = 0; axis < 3; ++axis) {
@@ -56,6 +57,7 @@ std::vector<WorldPoint> SmoothCurve(const SkeletonGraph& graph, const SkeletonEd
   }
   const std::vector<Coordinates> means = MeansAlong(middles, ShapeOf(graph, edge));
   std::vector<WorldPoint> curve;
+  curve.reserve(points.size());
   for (size_t n = 0; n < points.size(); ++n) {
     const Coordinates from = PlaceOf(points[n].point, kIsotropic), way = Sum(means[n], -1, from);
     const double share = ShareInside(graph, points[n], way);
