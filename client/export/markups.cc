@@ -32,60 +32,66 @@ Millimeters MillimetersOf(const World& world) {
   return {.times = std::max(1.0, unit / kNanometers), .per = std::max(1.0, kNanometers / unit)};
 }
 
-std::string UnitIn(const World& world) {
-  return NanometersOf(world.unit).has_value() ? "mm" : world.unit;
-}
-
-void AddMeasurement(Text& text, std::string_view before, std::string_view name, double value,
-                    const World& world) {
-  const std::string unit = UnitIn(world);
-  text.Add(before, "{\"name\":\"", name,
-           "\",\"enabled\":false,\"value\":", MillimetersOf(world).Of(value));
-  if (!unit.empty()) text.Add(",\"units\":", JsonString(unit));
-  text.Add('}');
-}
-
 // Markups are RAS or LPS. LAS is RAS with the first axis reversed.
 bool IsTurned(const World& world) { return world.axes == "LAS"; }
 
-std::string_view SystemOf(const World& world) {
-  return world.axes == "RAS" || IsTurned(world) ? "RAS" : "LPS";
+// How to write the coordinates and lengths of a world.
+struct Frame {
+  std::string_view system;
+  double sign_of_x;
+  bool known_unit;
+  Millimeters mm;
+  std::string units;  // a JSON member of a measurement; may be empty
+};
+
+Frame FrameOf(const World& world) {
+  const bool known = NanometersOf(world.unit).has_value();
+  const std::string unit = known ? "mm" : world.unit;
+  return {.system = world.axes == "RAS" || IsTurned(world) ? "RAS" : "LPS",
+          .sign_of_x = IsTurned(world) ? -1.0 : 1.0,
+          .known_unit = known,
+          .mm = MillimetersOf(world),
+          .units = unit.empty() ? "" : ",\"units\":" + JsonString(unit)};
 }
 
-void AddPoints(Text& text, const std::vector<CurvePoint>& curve, const World& world) {
-  const double sign = IsTurned(world) ? -1 : 1;
-  const Millimeters mm = MillimetersOf(world);
+void AddMeasurement(Text& text, std::string_view before, std::string_view name, double value,
+                    const Frame& frame) {
+  text.Add(before, "{\"name\":\"", name, "\",\"enabled\":false,\"value\":", frame.mm.Of(value),
+           frame.units, '}');
+}
+
+// Members that would have Slicer's defaults are left out: an empty label, a selected, visible and
+// unlocked point with a defined position.
+void AddPoints(Text& text, const std::vector<CurvePoint>& curve, const Frame& frame) {
+  const Millimeters& mm = frame.mm;
   for (size_t n = 0; n < curve.size(); ++n) {
     const WorldPoint& p = curve[n].at;
-    text.Add(n == 0 ? "\n" : ",\n", "{\"id\":\"", n + 1,
-             "\",\"label\":\"\",\"description\":\"radius ",
-             static_cast<float>(mm.Of(curve[n].radius)), "\",\"position\":[", mm.Of(sign * p[0]),
-             ',', mm.Of(p[1]), ',', mm.Of(p[2]),
-             "],\"selected\":true,\"locked\":false,\"visibility\":true,"
-             "\"positionStatus\":\"defined\"}");
+    text.Add(n == 0 ? "\n" : ",\n", "{\"id\":\"", n + 1, "\",\"description\":\"radius ",
+             static_cast<float>(mm.Of(curve[n].radius)), "\",\"position\":[",
+             mm.Of(frame.sign_of_x * p[0]), ',', mm.Of(p[1]), ',', mm.Of(p[2]), "]}");
   }
 }
 
 void AddCurve(Text& text, const SkeletonGraph& graph, size_t n, const GraphContext& context,
-              const World& world) {
+              const Frame& frame) {
   const SkeletonEdge& edge = graph.edges[n];
   const bool closed = graph.nodes[edge.source].kind == NodeKind::kLoop;
-  std::vector<CurvePoint> curve = SampledCurve(graph, edge);
+  const std::vector<WorldPoint> smooth = SmoothCurve(graph, edge);
+  std::vector<CurvePoint> curve = SampledCurve(graph, edge, smooth);
   if (closed && !curve.empty()) curve.pop_back();  // equals the first
-  const EdgeFigures figures = FiguresOf(graph, edge);
+  const EdgeFigures figures = FiguresOf(graph, edge, smooth);
   text.Add("{\"type\":\"", closed ? "ClosedCurve" : "Curve", "\",\"coordinateSystem\":\"",
-           SystemOf(world), '"');
-  if (UnitIn(world) == "mm") text.Add(",\"coordinateUnits\":\"mm\"");
+           frame.system, '"');
+  if (frame.known_unit) text.Add(",\"coordinateUnits\":\"mm\"");
   text.Add(",\"name\":\"", BranchName(context.labels, n),
-           "\",\"locked\":true,\"fixedNumberOfControlPoints\":false,\"labelFormat\":\"\","
-           "\"lastUsedControlPointNumber\":",
-           curve.size(), ",\"controlPoints\":[");
-  AddPoints(text, curve, world);
+           "\",\"locked\":true,\"labelFormat\":\"\",\"lastUsedControlPointNumber\":", curve.size(),
+           ",\"controlPoints\":[");
+  AddPoints(text, curve, frame);
   text.Add("],\"measurements\":[");
-  AddMeasurement(text, "", "length", figures.length, world);
-  AddMeasurement(text, ",", "mean radius", figures.mean_radius, world);
-  AddMeasurement(text, ",", "min radius", figures.min_radius, world);
-  AddMeasurement(text, ",", "max radius", figures.max_radius, world);
+  AddMeasurement(text, "", "length", figures.length, frame);
+  AddMeasurement(text, ",", "mean radius", figures.mean_radius, frame);
+  AddMeasurement(text, ",", "min radius", figures.min_radius, frame);
+  AddMeasurement(text, ",", "max radius", figures.max_radius, frame);
   text.Add(
       "],\"display\":{\"visibility\":true,\"pointLabelsVisibility\":false,"
       "\"propertiesLabelVisibility\":false,\"glyphScale\":0.5,\"lineThickness\":0.5}}");
@@ -110,11 +116,12 @@ std::string NoteOn(const World& world) {
 }  // namespace
 
 Document WriteMarkups(const SkeletonGraph& graph, const GraphContext& context, const World& world) {
+  const Frame frame = FrameOf(world);
   Text text;
   text.Add("{\"@schema\":\"", kSchema, "\",\n\"markups\":[");
   for (size_t n = 0; n < graph.edges.size(); ++n) {
     text.Add(n == 0 ? "\n" : ",\n");
-    AddCurve(text, graph, n, context, world);
+    AddCurve(text, graph, n, context, frame);
   }
   text.Add("\n]}\n");
   return {std::move(text).Take(), NoteOn(world)};
