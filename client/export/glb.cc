@@ -25,8 +25,9 @@ namespace {
 // Sides of a tube in scenes with few and with many tubes.
 constexpr size_t kSides = 8, kSidesOfMany = 4;
 constexpr size_t kMany = 100'000;
-constexpr int kFloat = 5126, kUint32 = 5125, kUint8 = 5121;  // component types
-constexpr int kOfVertices = 34962, kOfCorners = 34963;       // buffer targets
+constexpr int kFloat = 5126, kUint32 = 5125, kUint8 = 5121;          // component types
+constexpr int kOfVertices = 34962, kOfCorners = 34963;               // buffer targets
+constexpr size_t kMostBytes = std::numeric_limits<uint32_t>::max();  // of a file
 constexpr uint32_t kMagic = 0x46546C67, kJson = 0x4E4F534A, kBinary = 0x004E4942;
 
 using Vector = std::array<float, 3>;
@@ -114,6 +115,8 @@ class TubeMaker {
   TubeMaker(const WorldPoint& center, const SkeletonGraph& graph)
       : center_(center), range_(RadiusRangeOf(graph)), turns_(TurnsOfRing(graph.edges.size())) {}
 
+  size_t sides() const { return turns_.size(); }
+
   // Rings that twist no more than the curve, and a cap at each end.
   Tube Around(const std::vector<CurvePoint>& curve) const {
     Tube tube = {{}, turns_.size()};
@@ -182,6 +185,14 @@ std::vector<uint32_t> CornersOf(const Tube& tube) {
 // Builds the two chunks of the file.
 class Scene {
  public:
+  // Makes room for about this many vertices. Growing would copy most of a large file once more.
+  Scene(size_t tubes, size_t vertices) {
+    vertices_.reserve(std::min(vertices * kVertexBytes, kMostBytes));
+    node_text_.Reserve(std::min(tubes * 160, kMostBytes));
+    mesh_text_.Reserve(std::min(tubes * 130, kMostBytes));
+    accessor_text_.Reserve(std::min(tubes * 440, kMostBytes));
+  }
+
   void Add(const Tube& tube) {
     const size_t first_vertex = vertices_.size();
     Vector low = tube.vertices.front().position, high = low;
@@ -218,8 +229,9 @@ class Scene {
                    ",\"max_radius\":", rounded(figures.max_radius), "}}");
   }
 
-  // Called once: moves the texts that Add() and AddNode() have written.
-  std::string TakeJson(const WorldPoint& center, bool y_up) {
+  // Appends the JSON chunk and frees the texts that Add() and AddNode() have written: copies of
+  // them all would take most of the memory and time of a large file.
+  void MoveJsonTo(std::string& file, const WorldPoint& center, bool y_up) {
     Text text;
     text.Add("{\"asset\":{\"version\":\"2.0\",\"generator\":\"bccskel\"},\n\"scene\":0,\"scenes\":",
              "[{\"nodes\":[0]}],\n\"nodes\":[\n{\"name\":\"skeleton\",\"translation\":[");
@@ -231,16 +243,21 @@ class Scene {
     }
     if (meshes_ > 0) text.Add(",\"children\":[");
     for (size_t n = 1; n <= meshes_; ++n) text.Add(n == 1 ? "" : ",", n);
-    text.Add(meshes_ > 0 ? "]}" : "}", std::move(node_text_).Take(), "\n]");
-    if (meshes_ > 0) AddMeshes(text);
-    text.Add("}\n");
-    return std::move(text).Take();
+    text.Add(meshes_ > 0 ? "]}" : "}");
+    file.reserve(file.size() + text.size() + node_text_.size() + mesh_text_.size() +
+                 accessor_text_.size() + kRestOfJson + vertices_.size() + corners_.size());
+    file += std::move(text).Take();
+    file += std::move(node_text_).Take();
+    file += "\n]";
+    if (meshes_ > 0) MoveMeshesTo(file);
+    file += "}\n";
   }
   const std::string& vertices() const { return vertices_; }
   const std::string& corners() const { return corners_; }
 
  private:
   static constexpr int kVertexView = 0, kCornerView = 1;
+  static constexpr size_t kRestOfJson = 1024;  // at most, beside the texts, with the binary's head
 
   // Returns its number and leaves its JSON object open.
   size_t AddAccessor(int view, size_t offset, int type, std::string_view shape, size_t count) {
@@ -262,16 +279,20 @@ class Scene {
     return found->second;
   }
 
-  void AddMeshes(Text& text) {
-    text.Add(
-        ",\n\"materials\":[{\"name\":\"radius\",\"pbrMetallicRoughness\":{\"metallicFactor\":0,",
-        "\"roughnessFactor\":0.6}}],\n\"meshes\":[", std::move(mesh_text_).Take(),
-        "\n],\n\"accessors\":[", std::move(accessor_text_).Take(),
-        "\n],\n\"bufferViews\":[\n{\"buffer\":0,\"byteLength\":", vertices_.size(),
-        ",\"byteStride\":", kVertexBytes, ",\"target\":", kOfVertices,
-        "},\n{\"buffer\":0,\"byteOffset\":", vertices_.size(), ",\"byteLength\":", corners_.size(),
-        ",\"target\":", kOfCorners,
-        "}\n],\n\"buffers\":[{\"byteLength\":", vertices_.size() + corners_.size(), "}]");
+  void MoveMeshesTo(std::string& file) {
+    file +=
+        ",\n\"materials\":[{\"name\":\"radius\",\"pbrMetallicRoughness\":{\"metallicFactor\":0,"
+        "\"roughnessFactor\":0.6}}],\n\"meshes\":[";
+    file += std::move(mesh_text_).Take();
+    file += "\n],\n\"accessors\":[";
+    file += std::move(accessor_text_).Take();
+    Text text;
+    text.Add("\n],\n\"bufferViews\":[\n{\"buffer\":0,\"byteLength\":", vertices_.size(),
+             ",\"byteStride\":", kVertexBytes, ",\"target\":", kOfVertices,
+             "},\n{\"buffer\":0,\"byteOffset\":", vertices_.size(),
+             ",\"byteLength\":", corners_.size(), ",\"target\":", kOfCorners,
+             "}\n],\n\"buffers\":[{\"byteLength\":", vertices_.size() + corners_.size(), "}]");
+    file += std::move(text).Take();
   }
 
   std::string vertices_, corners_;
@@ -295,18 +316,14 @@ WorldPoint CenterOf(const SkeletonGraph& graph) {
 
 constexpr size_t RoundedUp(size_t bytes) { return (bytes + 3) / 4 * 4; }
 
-void AppendHead(std::string& file, size_t bytes, uint32_t type) {
-  AppendWord(file, static_cast<uint32_t>(bytes));
-  AppendWord(file, type);
-}
-
 }  // namespace
 
 absl::StatusOr<std::string> GlbBytes(const SkeletonGraph& graph, const GraphContext& context,
                                      const World& world) {
   const WorldPoint center = CenterOf(graph);
   const TubeMaker maker(center, graph);
-  Scene scene;
+  // A curve has about as many samples as points; one more for caps.
+  Scene scene(graph.edges.size(), maker.sides() * (graph.points.size() + graph.edges.size()));
   for (size_t n = 0; n < graph.edges.size(); ++n) {
     const SkeletonEdge& edge = graph.edges[n];
     const std::vector<WorldPoint> smooth = SmoothCurve(graph, edge);
@@ -315,25 +332,27 @@ absl::StatusOr<std::string> GlbBytes(const SkeletonGraph& graph, const GraphCont
     scene.Add(maker.Around(curve));
     scene.AddNode(BranchName(context.labels, n), FiguresOf(graph, edge, smooth));
   }
-  std::string json = scene.TakeJson(center, world.axes == kYUp);
-  json.resize(RoundedUp(json.size()), ' ');
+  constexpr size_t kHeads = 20;  // of the file and of the JSON chunk
+  std::string file(kHeads, '\0');
+  scene.MoveJsonTo(file, center, world.axes == kYUp);
+  file.resize(RoundedUp(file.size()), ' ');
+  const size_t json = file.size() - kHeads;
   const size_t binary = scene.vertices().size() + scene.corners().size();  // words alone
-  constexpr size_t kHead = 8;
-  const size_t bytes = 12 + kHead + json.size() + (binary == 0 ? 0 : kHead + binary);
-  if (bytes > std::numeric_limits<uint32_t>::max()) {
+  if (binary > 0) {
+    // Too long a chunk is an error below.
+    AppendWord(file, static_cast<uint32_t>(binary));
+    AppendWord(file, kBinary);
+    file += scene.vertices();
+    file += scene.corners();
+  }
+  if (file.size() > kMostBytes) {
     return absl::ResourceExhaustedError("GLB holds no more than 4 GiB");
   }
-  std::string file;
-  file.reserve(bytes);
-  AppendWord(file, kMagic);
-  AppendWord(file, 2);
-  AppendWord(file, static_cast<uint32_t>(bytes));
-  AppendHead(file, json.size(), kJson);
-  file += json;
-  if (binary == 0) return file;
-  AppendHead(file, binary, kBinary);
-  file += scene.vertices();
-  file += scene.corners();
+  std::string heads;
+  for (const size_t word : {size_t{kMagic}, size_t{2}, file.size(), json, size_t{kJson}}) {
+    AppendWord(heads, static_cast<uint32_t>(word));
+  }
+  file.replace(0, kHeads, heads);
   return file;
 }
 

@@ -36,6 +36,9 @@ class Text {
     Append(text == "-0" ? "0" : text);
     return *this;
   }
+  size_t size() const { return used_; }
+  // For a text of about this size: saves copying it as it grows.
+  void Reserve(size_t bytes) { text_.reserve(bytes); }
   std::string Take() && {
     text_.resize(used_);
     return std::move(text_);
