@@ -98,14 +98,19 @@ struct EdgeContext {
   bool has_births;
   bool has_shifts;
   RadiusTexts& radii;
+  JsonParts parts;
 };
 
 void AddEdge(Text& text, const SkeletonGraph& graph, const SkeletonEdge& edge,
              const EdgeContext& context) {
   const auto points = graph.PointsOf(edge);
   text.Add("{\"source\":", edge.source, ",\"target\":", edge.target, ",\"points\":");
-  AddList(text, ",", points,
-          [&](const SkeletonPoint& p) { AddPosition(text, graph.PositionOf(p)); });
+  if (context.parts == JsonParts::kAll) {
+    AddList(text, ",", points,
+            [&](const SkeletonPoint& p) { AddPosition(text, graph.PositionOf(p)); });
+  } else {
+    text.Add("null");
+  }
   text.Add(",\"radii\":");
   AddList(text, ",", points, [&](const SkeletonPoint& p) { text.Add(context.radii.Of(p)); });
   if (context.has_births) {
@@ -175,7 +180,7 @@ void AddTimings(Text& text, const StageTimings& timings) {
 }  // namespace
 
 std::string JsonText(const SkeletonizeResult& result, const std::optional<TreeOrder>& order,
-                     const World& world) {
+                     const World& world, JsonParts parts) {
   const SkeletonGraph& graph = result.graph;
   Text text;
   text.Add("{\n\"nodes\":");
@@ -185,11 +190,15 @@ std::string JsonText(const SkeletonizeResult& result, const std::optional<TreeOr
             order);
   });
   RadiusTexts radii(graph);
-  const EdgeContext edges = {order, graph.HasBirths(), graph.HasShifts(), radii};
+  const EdgeContext edges = {order, graph.HasBirths(), graph.HasShifts(), radii, parts};
   text.Add(",\n\"edges\":");
   AddList(text, ",\n", graph.edges, [&](const SkeletonEdge& e) { AddEdge(text, graph, e, edges); });
   text.Add(",\n\"sheets\":");
-  AddSheets(text, graph, radii);
+  if (parts == JsonParts::kAll) {
+    AddSheets(text, graph, radii);
+  } else {
+    text.Add("null");
+  }
   text.Add(",\n\"components\":");
   AddList(text, ",\n", components.figures,
           [&](const ComponentFigures& figures) { AddFigures(text, figures); });
@@ -207,7 +216,11 @@ std::string JsonText(const SkeletonizeResult& result, const std::optional<TreeOr
            "},\n\"world\":", JsonString(OrUnknown(world.axes)),
            ",\n\"unit\":", JsonString(OrUnknown(world.unit)),
            ",\n\"object_points\":", result.object_points, ",\n\"timings\":");
-  AddTimings(text, result.timings);
+  if (parts == JsonParts::kAll) {
+    AddTimings(text, result.timings);
+  } else {
+    text.Add("null");
+  }
   text.Add(",\n\"sha256\":", JsonString(result.sha256), "\n}\n");
   return std::move(text).Take();
 }

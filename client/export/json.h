@@ -13,8 +13,11 @@ namespace bccskel::exporting {
 // The JSON document of client/export/skeleton.schema.json: nodes, edges, components, certificate,
 // how it was made, timings, sha256. World coordinates and units.
 // With an order of trees, nodes and edges state their places in it.
+// kForPage: null instead of what a page holds in another form, ResultDocument::not_on_pages.
+enum class JsonParts { kAll, kForPage };
 std::string JsonText(const SkeletonizeResult& result,
-                     const std::optional<TreeOrder>& order = std::nullopt, const World& world = {});
+                     const std::optional<TreeOrder>& order = std::nullopt, const World& world = {},
+                     JsonParts parts = JsonParts::kAll);
 
 }  // namespace bccskel::exporting
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -18,6 +19,7 @@
 #include "client/export/obj.h"
 #include "client/export/picture/svg.h"
 #include "client/export/precomputed.h"
+#include "client/export/subject_document.h"
 #include "client/export/swc.h"
 #include "client/export/vtp.h"
 #include "client/view/page.h"
@@ -85,9 +87,9 @@ absl::StatusOr<Document> WithoutNote(absl::StatusOr<std::string> bytes) {
   return Document{*std::move(bytes), ""};
 }
 
-std::string JsonText(const Subject& subject) {
+std::string JsonText(const Subject& subject, JsonParts parts = JsonParts::kAll) {
   return exporting::JsonText(subject.result, OrderOf(subject.result.graph, subject.root),
-                             subject.world);
+                             subject.world, parts);
 }
 
 absl::StatusOr<view::Peeling> PeelingOf(const Subject& subject) {
@@ -96,17 +98,15 @@ absl::StatusOr<view::Peeling> PeelingOf(const Subject& subject) {
                             subject.context);
 }
 
-absl::StatusOr<view::ResultDocument> DocumentOf(const Subject& subject) {
-  return view::ParseResultDocument(JsonText(subject));
-}
-
 absl::StatusOr<std::string> SvgText(const Subject& subject) {
-  BCCSKEL_ASSIGN_OR_RETURN(const view::ResultDocument result, DocumentOf(subject));
+  BCCSKEL_ASSIGN_OR_RETURN(const view::ResultDocument result,
+                           DocumentOf(subject.result, subject.world));
   return SvgText(subject, result);
 }
 
 absl::StatusOr<std::string> PageText(const Subject& subject) {
-  BCCSKEL_ASSIGN_OR_RETURN(const view::ResultDocument result, DocumentOf(subject));
+  BCCSKEL_ASSIGN_OR_RETURN(view::ResultDocument result, DocumentOf(subject.result, subject.world));
+  result.text = std::make_shared<const std::string>(JsonText(subject, JsonParts::kForPage));
   BCCSKEL_ASSIGN_OR_RETURN(const view::Peeling peeling, PeelingOf(subject));
   return view::PageOf({subject.title, result, peeling});
 }

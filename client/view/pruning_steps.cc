@@ -1,6 +1,7 @@
 #include "client/view/pruning_steps.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <map>
 #include <optional>
@@ -183,6 +184,9 @@ double JunctionReachOf(const ResultGraph& result) {
 }  // namespace
 
 PruningSteps PruningStepsOf(const ResultDocument& document) {
+  const bool has_levels = std::ranges::any_of(
+      document.edges, [](const auto& edge) { return std::isfinite(edge.pruning_level); });
+  if (!has_levels) return {};
   const absl::StatusOr<ResultGraph> result = ResultGraphOf(document);
   if (!result.ok()) return {};
   Collector collector(result->graph);

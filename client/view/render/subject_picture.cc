@@ -1,8 +1,6 @@
 #include "client/view/render/subject_picture.h"
 
-#include <optional>
-
-#include "client/export/json.h"
+#include "client/export/subject_document.h"
 #include "client/view/display_surface.h"
 #include "client/view/render/picture.h"
 #include "client/view/result_document.h"
@@ -11,9 +9,8 @@
 namespace bccskel::view {
 
 absl::StatusOr<std::string> DrawSubject(const exporting::Subject& subject) {
-  BCCSKEL_ASSIGN_OR_RETURN(
-      const ResultDocument result,
-      ParseResultDocument(exporting::JsonText(subject.result, std::nullopt, subject.world)));
+  BCCSKEL_ASSIGN_OR_RETURN(const ResultDocument result,
+                           exporting::DocumentOf(subject.result, subject.world));
   BCCSKEL_ASSIGN_OR_RETURN(
       const DisplaySurface surface,
       MakeDisplaySurface(subject.object, kMostPictureTriangles, subject.context));
