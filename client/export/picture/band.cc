@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace bccskel::exporting {
 namespace {
@@ -40,8 +41,14 @@ Band::Band(int width, int top, int rows) : width_(width), top_(top), rows_(rows)
 }
 
 void Band::Draw(const Geometry& geometry) {
+  std::vector<uint32_t> all(geometry.beads.size());
+  std::iota(all.begin(), all.end(), 0);
+  Draw(geometry, all);
+}
+
+void Band::Draw(const Geometry& geometry, std::span<const uint32_t> beads) {
   for (const SurfaceTriangle& triangle : geometry.glass.triangles) DrawTriangle(geometry, triangle);
-  for (const Bead& bead : geometry.beads) DrawBead(bead);
+  for (const uint32_t n : beads) DrawBead(geometry.beads[n]);
   for (const SurfaceTriangle& t : geometry.sheets.mesh.triangles) DrawSheet(geometry.sheets, t);
 }
 

@@ -1,7 +1,9 @@
 #ifndef BCCSKEL_CLIENT_EXPORT_PICTURE_BAND_H_
 #define BCCSKEL_CLIENT_EXPORT_PICTURE_BAND_H_
 
+#include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "client/export/picture/beads.h"
@@ -38,6 +40,8 @@ class Band {
   Band(int width, int top, int rows);
 
   void Draw(const Geometry& geometry);
+  // The same with some of the geometry's beads: those that reach into the band, in their order.
+  void Draw(const Geometry& geometry, std::span<const uint32_t> beads);
 
   // Needs: 0 <= x < width, 0 <= row < rows.
   const Hit& near_glass(int x, int row) const { return near_[Index(x, row)]; }

@@ -1,6 +1,7 @@
 #include "client/export/picture/beads.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace bccskel::exporting {
@@ -15,20 +16,32 @@ PanelPoint Between(const PanelPoint& a, const PanelPoint& b, double part) {
   return {a.x + part * (b.x - a.x), a.y + part * (b.y - a.y), a.depth + part * (b.depth - a.depth)};
 }
 
+LinearColor ColorAt(int index) {
+  const auto rgb = RadiusRgb(index);
+  return {static_cast<float>(rgb[0] / 255), static_cast<float>(rgb[1] / 255),
+          static_cast<float>(rgb[2] / 255)};
+}
+
 class Stringer {
  public:
-  Stringer(const Projection& projection, double thickness, const RadiusRange& range)
-      : projection_(projection), thickness_(thickness), range_(range) {}
+  Stringer(const view::ResultDocument& result, const Projection& projection, double thickness)
+      : projection_(projection),
+        thickness_(thickness),
+        range_(RadiusRangeOf(result)),
+        step_(StepOf(result, projection, thickness)) {
+    for (int n = 0; n < kRadiusColors; ++n) colors_[static_cast<size_t>(n)] = ColorAt(n);
+  }
 
   void AddEdge(const view::ResultDocument::Edge& edge) {
     const std::vector<WorldPoint> curve = SmoothedForDisplay(edge.points);
     for (size_t n = 1; n < curve.size(); ++n) {
       const PanelPoint from = projection_.Project(curve[n - 1]), to = projection_.Project(curve[n]);
-      const int steps = 1 + static_cast<int>(std::hypot(to.x - from.x, to.y - from.y));
+      const int steps = 1 + static_cast<int>(std::hypot(to.x - from.x, to.y - from.y) / step_);
       for (int step = 0; step < steps; ++step) {
         const double part = static_cast<double>(step) / steps;
         const double radius = edge.radii[n - 1] + part * (edge.radii[n] - edge.radii[n - 1]);
-        beads_.push_back(BeadAt(Between(from, to, part), thickness_, ColorOf(radius, range_)));
+        beads_.push_back(BeadAt(Between(from, to, part), thickness_,
+                                colors_[static_cast<size_t>(RadiusColorIndex(radius, range_))]));
       }
     }
   }
@@ -44,18 +57,28 @@ class Stringer {
   std::vector<Bead> Take() && { return std::move(beads_); }
 
  private:
+  // A bead per unit, but half as many as fit the thickness side by side where there are very many:
+  // the notches between them are then still far below a unit.
+  static double StepOf(const view::ResultDocument& result, const Projection& projection,
+                       double thickness) {
+    constexpr double kMany = 4e6;
+    double length = 0;
+    for (const view::ResultDocument::Edge& edge : result.edges) length += edge.length;
+    return length * projection.scale() > kMany ? std::max(1.0, thickness / 2) : 1;
+  }
+
   const Projection& projection_;
   const double thickness_;
   const RadiusRange range_;
+  const double step_;
+  std::array<LinearColor, kRadiusColors> colors_;
   std::vector<Bead> beads_;
 };
 
 }  // namespace
 
 LinearColor ColorOf(double radius, const RadiusRange& range) {
-  const auto rgb = RadiusRgb(RadiusColorIndex(radius, range));
-  return {static_cast<float>(rgb[0] / 255), static_cast<float>(rgb[1] / 255),
-          static_cast<float>(rgb[2] / 255)};
+  return ColorAt(RadiusColorIndex(radius, range));
 }
 
 RadiusRange RadiusRangeOf(const view::ResultDocument& result) {
@@ -74,7 +97,7 @@ RadiusRange RadiusRangeOf(const view::ResultDocument& result) {
 
 std::vector<Bead> BeadsOf(const view::ResultDocument& result, const Projection& projection,
                           double thickness) {
-  Stringer stringer(projection, thickness, RadiusRangeOf(result));
+  Stringer stringer(result, projection, thickness);
   for (const view::ResultDocument::Edge& edge : result.edges) stringer.AddEdge(edge);
   for (const view::ResultDocument::Node& node : result.nodes) stringer.AddNode(node);
   return std::move(stringer).Take();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <span>
 
 #include "client/export/picture/glass_color.h"
 #include "core/exec/status_macros.h"
@@ -32,9 +33,29 @@ uint32_t PixelAt(const Band& band, int x, int row, int samples) {
   return pixel;
 }
 
-void DrawBand(const Geometry& geometry, int top, int rows, int samples, RgbImage& image) {
+using BeadsOfBands = std::vector<std::vector<uint32_t>>;  // in their order
+
+// Large nets have millions of beads, too many for every band to look at.
+BeadsOfBands SortIntoBands(const std::vector<Bead>& beads, int samples, int height) {
+  BeadsOfBands bands(static_cast<size_t>((height + kBandRows - 1) / kBandRows));
+  const auto band_at = [&](float y) {
+    const float last = static_cast<float>(bands.size() - 1);
+    return static_cast<size_t>(
+        std::clamp(std::floor(y / static_cast<float>(kBandRows * samples)), 0.0f, last));
+  };
+  for (uint32_t n = 0; n < beads.size(); ++n) {
+    const Bead& bead = beads[n];
+    const size_t last = band_at(bead.y + bead.radius);
+    for (size_t band = band_at(bead.y - bead.radius); band <= last; ++band)
+      bands[band].push_back(n);
+  }
+  return bands;
+}
+
+void DrawBand(const Geometry& geometry, std::span<const uint32_t> beads, int top, int rows,
+              int samples, RgbImage& image) {
   Band band(samples * image.width, samples * top, samples * rows);
-  band.Draw(geometry);
+  band.Draw(geometry, beads);
   auto pixel = image.pixels.begin() + static_cast<ptrdiff_t>(top) * image.width;
   for (int row = 0; row < rows; ++row) {
     for (int x = 0; x < image.width; ++x) *pixel++ = PixelAt(band, x, row, samples);
@@ -65,10 +86,12 @@ absl::StatusOr<RgbImage> ImageOf(const Geometry& geometry, int width, int height
                                  const exec::Context& context) {
   RgbImage image = {width, height, {}};
   image.pixels.resize(static_cast<size_t>(width) * static_cast<size_t>(height));
+  const BeadsOfBands beads = SortIntoBands(geometry.beads, samples, height);
   std::atomic<int> next = 0;
   context.Offer([&](int) {
     for (int top; !context.ShouldStop() && (top = kBandRows * next++) < height;) {
-      DrawBand(geometry, top, std::min(kBandRows, height - top), samples, image);
+      DrawBand(geometry, beads[static_cast<size_t>(top / kBandRows)], top,
+               std::min(kBandRows, height - top), samples, image);
     }
   });
   BCCSKEL_RETURN_IF_ERROR(context.StopStatus());
