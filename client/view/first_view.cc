@@ -114,7 +114,23 @@ Front FrontOf(const WorldBox& box, std::span<const WorldPoint> points,
   return {{{1, 0, 0}, {0, -1, 0}, {0, 0, -1}}, 0, 0};
 }
 
+std::vector<WorldPoint> ShownPoints(const ResultDocument& result,
+                                    std::span<const WorldPoint> surface) {
+  std::vector<WorldPoint> points(surface.begin(), surface.end());
+  if (!points.empty()) return points;
+  points = result.sheets.points;
+  for (const ResultDocument::Node& node : result.nodes) points.push_back(node.position);
+  for (const ResultDocument::Edge& edge : result.edges) {
+    points.insert(points.end(), edge.points.begin(), edge.points.end());
+  }
+  return points;
+}
+
 Front FrontOf(const ResultDocument& result, std::span<const WorldPoint> surface) {
+  if (surface.empty()) {
+    const std::vector<WorldPoint> points = ShownPoints(result, surface);
+    return FrontOf(BoxOf(points), points, std::nullopt);  // a flat curve is no slice
+  }
   return FrontOf(BoxOf(surface), surface, SliceFactsOf(result));
 }
 

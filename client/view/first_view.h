@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "client/view/result_document.h"
 #include "core/lattice/lattice_point.h"
@@ -49,7 +50,12 @@ struct Front {
 Front FrontOf(const WorldBox& box, std::span<const WorldPoint> points,
               const std::optional<SliceFacts>& slice);
 
-// The same of a result's object. `surface`: points of it.
+// The points that a picture must show: the object's surface or, without an object, the nodes,
+// curves and sheets of its result.
+std::vector<WorldPoint> ShownPoints(const ResultDocument& result,
+                                    std::span<const WorldPoint> surface);
+
+// The same of a result's object. `surface`: points of it; empty for the result alone.
 Front FrontOf(const ResultDocument& result, std::span<const WorldPoint> surface);
 
 // The view after moving `turn` degrees to the right around the object and `climb` degrees up.

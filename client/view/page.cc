@@ -101,14 +101,8 @@ absl::StatusOr<OrderedJson> SheetsJson(const SheetSurface& sheets, const Quantiz
 }
 
 Front FrontOf(const PageContent& content) {
-  if (!content.peeling.layers.empty()) {
-    return FrontOf(content.result, content.peeling.layers.front().surface.vertices);
-  }
-  std::vector<WorldPoint> points = content.result.sheets.points;
-  for (const ResultDocument::Edge& edge : content.result.edges) {
-    points.insert(points.end(), edge.points.begin(), edge.points.end());
-  }
-  return FrontOf(view::BoxOf(points), points, std::nullopt);  // a flat curve is no slice
+  if (content.peeling.layers.empty()) return FrontOf(content.result, {});
+  return FrontOf(content.result, content.peeling.layers.front().surface.vertices);
 }
 
 OrderedJson FrontJson(const PageContent& content) {

@@ -23,14 +23,14 @@ std::string BettiPhrase(const BettiNumbers& betti) {
          counted(betti.cavities, "cavity", "cavities");
 }
 
-std::string ObjectPhrase(const SkeletonizeResult& result) {
+std::string ObjectPhrase(const view::ResultFacts& result) {
   return "object: " + Counted(result.object_points, "point", "points") + ", " +
          BettiPhrase(result.certificate.input);
 }
 
-std::string SkeletonPhrase(const SkeletonizeResult& result) {
-  return "skeleton: " + Counted(result.skeleton_points, "point", "points") + ", " +
-         BettiPhrase(result.certificate.skeleton) + " (" + VerdictInWords(result.certificate) + ")";
+std::string SkeletonPhrase(const view::ResultFacts& result, const std::string& size) {
+  return "skeleton: " + size + ", " + BettiPhrase(result.certificate.skeleton) + " (" +
+         VerdictInWords(result.certificate) + ")";
 }
 
 }  // namespace bccskel::exporting

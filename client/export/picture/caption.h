@@ -5,7 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "client/export/subject.h"
+#include "client/view/result_document.h"
+#include "core/certificate/certificate.h"
 
 namespace bccskel::exporting {
 
@@ -19,8 +20,9 @@ std::string Counted(uint64_t count, std::string_view one, std::string_view many)
 std::string BettiPhrase(const BettiNumbers& betti);
 
 // The two lines under a picture's title: the input, and the result with its certificate.
-std::string ObjectPhrase(const SkeletonizeResult& result);
-std::string SkeletonPhrase(const SkeletonizeResult& result);
+// `size`: of the skeleton, such as "12 points".
+std::string ObjectPhrase(const view::ResultFacts& result);
+std::string SkeletonPhrase(const view::ResultFacts& result, const std::string& size);
 
 }  // namespace bccskel::exporting
 

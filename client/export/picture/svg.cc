@@ -21,14 +21,14 @@
 namespace bccskel::exporting {
 namespace {
 
-constexpr double kWidth = 1240, kHeight = 860;
 // Of the glass images; the samples along each axis of a pixel.
 constexpr double kPixelsPerUnit = 1.5;
 constexpr int kSamplesPerPixel = 2;
 constexpr double kMargin = 26;
 // The glass images end inside the panels, whose corners are round.
 constexpr double kRim = 8;
-constexpr size_t kMostTriangles = 200'000;  // of the object's surface
+// Of curves, together: more are drawn into the glass images. They make files of about 20 MB.
+constexpr size_t kMostPoints = 250'000;
 
 // The position of a view in the picture.
 struct Panel {
@@ -44,24 +44,63 @@ double Rounded(double v) { return std::round(v * 100) / 100; }
 
 // The contents of all panels.
 struct Scene {
-  const Subject& subject;
+  const SvgContent& content;
   const view::ResultDocument& result;
-  view::DisplaySurface surface;
+  std::vector<WorldPoint> shown;
   RadiusRange radii;
+  bool dense;  // thin lines and small nodes
+  bool drawn;  // curves and nodes are in the glass images
 };
 
+Scene SceneOf(const SvgContent& content) {
+  size_t points = content.result.nodes.size();
+  for (const view::ResultDocument::Edge& edge : content.result.edges) points += edge.points.size();
+  return {.content = content,
+          .result = content.result,
+          .shown = view::ShownPoints(content.result, content.surface.vertices),
+          .radii = RadiusRangeOf(content.result),
+          .dense = content.result.nodes.size() > 300,
+          .drawn = points > kMostPoints};
+}
+
+double BoldnessIn(const PanelSize& panel) { return panel.width > 500 ? 1 : 0.7; }
+double StrokeWidth(const Scene& scene, double boldness) {
+  return (scene.dense ? 1.6 : 2.6) * boldness;
+}
+
+// The distance between neighbors on a sheet: those of the D8 lattice.
+double SpacingOf(const view::ResultDocument& result) {
+  if (!result.placement.has_value()) return 0;  // older versions
+  return std::ranges::max(result.placement->spacing) * std::sqrt(3.0) / 2;
+}
+
+// Curves, nodes and points of sheets.
+std::vector<Bead> BeadsOf(const Scene& scene, const Projection& projection, double thickness) {
+  std::vector<Bead> beads = BeadsOf(scene.result, projection, thickness);
+  const view::ResultDocument::Sheets& sheets = scene.result.sheets;
+  const double radius = std::max(SpacingOf(scene.result) * projection.scale() / 2, thickness / 2);
+  for (size_t n = 0; n < sheets.points.size(); ++n) {
+    const PanelPoint p = projection.Project(sheets.points[n]);
+    beads.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.depth),
+                     static_cast<float>(radius), ColorOf(sheets.radii[n], scene.radii)});
+  }
+  return beads;
+}
+
 // As a PNG file, on the panels' color.
-absl::StatusOr<std::string> GlassImage(const Scene& scene, const View& view,
-                                       const PanelSize& size) {
+absl::StatusOr<std::string> GlassImage(const Scene& scene, const View& view, const PanelSize& size,
+                                       double boldness) {
   constexpr double kSamples = kPixelsPerUnit * kSamplesPerPixel;
-  const Projection projection(view, scene.surface.vertices,
-                              {size.width * kSamples, size.height * kSamples},
+  const Projection projection(view, scene.shown, {size.width * kSamples, size.height * kSamples},
                               (kMargin - kRim) * kSamples);
-  BCCSKEL_ASSIGN_OR_RETURN(
-      const RgbImage image,
-      ImageOf(GlassOf(scene.surface, projection), static_cast<int>(size.width * kPixelsPerUnit),
-              static_cast<int>(size.height * kPixelsPerUnit), kSamplesPerPixel,
-              scene.subject.context));
+  Geometry geometry = GlassOf(scene.content.surface, projection);
+  if (scene.drawn) {
+    geometry.beads = BeadsOf(scene, projection, StrokeWidth(scene, boldness) / 2 * kSamples);
+  }
+  BCCSKEL_ASSIGN_OR_RETURN(const RgbImage image,
+                           ImageOf(geometry, static_cast<int>(size.width * kPixelsPerUnit),
+                                   static_cast<int>(size.height * kPixelsPerUnit), kSamplesPerPixel,
+                                   scene.content.context));
   return PngOf(image);
 }
 
@@ -129,10 +168,8 @@ void AddSheets(Text& svg, const Scene& scene, const Projection& projection) {
         {projection.Project(sheets.points[n]), RadiusColorIndex(sheets.radii[n], scene.radii)});
   }
   std::ranges::stable_sort(dots, {}, [](const ColoredDot& dot) { return dot.at.depth; });
-  const double spacing = std::ranges::max(scene.subject.object.placement().spacing);
-  const double between = spacing * std::sqrt(3.0) / 2;  // D8 neighbors
   svg.Add("<g fill=\"none\" stroke-linecap=\"round\" stroke-width=\"",
-          Rounded(std::max(between * projection.scale(), 1.0)), "\">\n");
+          Rounded(std::max(SpacingOf(scene.result) * projection.scale(), 1.0)), "\">\n");
   for (size_t n = 0; n < dots.size(); ++n) {
     const bool starts = n == 0 || dots[n].color != dots[n - 1].color;
     if (starts)
@@ -172,19 +209,20 @@ void AddAxes(Text& svg, const View& view, const PanelSize& size) {
 }
 
 absl::Status AddPanel(Text& svg, const Scene& scene, const Panel& panel, const View& view) {
-  const Projection projection(view, scene.surface.vertices, panel.size, kMargin);
+  const Projection projection(view, scene.shown, panel.size, kMargin);
   const PanelSize image = {panel.size.width - 2 * kRim, panel.size.height - 2 * kRim};
-  BCCSKEL_ASSIGN_OR_RETURN(const std::string png, GlassImage(scene, view, image));
+  const double boldness = BoldnessIn(panel.size);
+  BCCSKEL_ASSIGN_OR_RETURN(const std::string png, GlassImage(scene, view, image, boldness));
   svg.Add("<svg x=\"", panel.x, "\" y=\"", panel.y, "\" width=\"", panel.size.width, "\" height=\"",
           panel.size.height, "\">\n<rect class=\"p\" width=\"100%\" ",
           "height=\"100%\" rx=\"10\"/>\n");
   svg.Add("<image x=\"", kRim, "\" y=\"", kRim, "\" width=\"", image.width, "\" height=\"",
           image.height, "\" href=\"data:image/png;base64,", absl::Base64Escape(png), "\"/>\n");
-  const double boldness = panel.size.width > 500 ? 1 : 0.7;
-  const bool dense = scene.result.nodes.size() > 300;
-  AddSheets(svg, scene, projection);
-  AddStrokes(svg, StrokesFromBack(scene, projection), (dense ? 1.6 : 2.6) * boldness);
-  AddNodes(svg, scene.result, projection, (dense ? 1.8 : 3.6) * boldness);
+  if (!scene.drawn) {
+    AddSheets(svg, scene, projection);
+    AddStrokes(svg, StrokesFromBack(scene, projection), StrokeWidth(scene, boldness));
+    AddNodes(svg, scene.result, projection, (scene.dense ? 1.8 : 3.6) * boldness);
+  }
   AddAxes(svg, view, panel.size);
   svg.Add("</svg>\n");
   return absl::OkStatus();
@@ -228,36 +266,45 @@ void AddLegend(Text& svg, const RadiusRange& radii) {
   AddNodeLegend(svg, 688, "isolated", "isolated point or closed surface");
 }
 
-void AddHead(Text& svg, const Subject& subject) {
+void AddHead(Text& svg, const SvgContent& content) {
+  const view::ResultDocument& result = content.result;
+  const std::string size = content.skeleton_points.has_value()
+                               ? Counted(*content.skeleton_points, "point", "points")
+                               : Counted(result.edges.size(), "branch", "branches");
   svg.Add("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" ",
-          "viewBox=\"0 0 ", kWidth, ' ', kHeight, "\" width=\"", kWidth, "\" height=\"", kHeight,
-          "\" font-family=\"DejaVu Sans, Helvetica, Arial, sans-serif\">\n<style>",
+          "viewBox=\"0 0 ", kSvgWidth, ' ', kSvgHeight, "\" width=\"", kSvgWidth, "\" height=\"",
+          kSvgHeight, "\" font-family=\"DejaVu Sans, Helvetica, Arial, sans-serif\">\n<style>",
           ".p{fill:#f8fafc;stroke:#e2e8f0}.h{stroke:#fff;stroke-linecap:butt}",
           ".s{font-size:13px;fill:#475569}.t{font-size:22px;font-weight:bold;fill:#0f172a}",
           ".a{stroke:#94a3b8;stroke-width:1.3}",
           ".a text{font-size:12px;fill:#64748b;stroke:none;text-anchor:middle}</style>\n",
           "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n");
-  svg.Add("<text class=\"t\" x=\"20\" y=\"36\">", EscapeMarkup(subject.title), "</text>\n",
-          "<text class=\"s\" x=\"20\" y=\"64\">", ObjectPhrase(subject.result), "  →  ",
-          SkeletonPhrase(subject.result), "</text>\n");
+  svg.Add("<text class=\"t\" x=\"20\" y=\"36\">", EscapeMarkup(content.title), "</text>\n",
+          "<text class=\"s\" x=\"20\" y=\"64\">", ObjectPhrase(result), "  →  ",
+          SkeletonPhrase(result, size), "</text>\n");
 }
 
 }  // namespace
 
-absl::StatusOr<std::string> SvgText(const Subject& subject, const view::ResultDocument& result) {
-  BCCSKEL_ASSIGN_OR_RETURN(
-      view::DisplaySurface surface,
-      view::MakeDisplaySurface(subject.object, kMostTriangles, subject.context));
-  const Scene scene = {subject, result, std::move(surface), RadiusRangeOf(result)};
-  const std::array<View, 3> views = view::ViewsOf(view::FrontOf(result, scene.surface.vertices));
+absl::StatusOr<std::string> SvgText(const SvgContent& content) {
+  const Scene scene = SceneOf(content);
+  const std::array<View, 3> views =
+      view::ViewsOf(view::FrontOf(content.result, content.surface.vertices));
   Text svg;
-  AddHead(svg, subject);
+  AddHead(svg, content);
   for (size_t n = 0; n < kPanels.size(); ++n) {
     BCCSKEL_RETURN_IF_ERROR(AddPanel(svg, scene, kPanels[n], views[n]));
   }
   AddLegend(svg, scene.radii);
   svg.Add("</svg>\n");
   return std::move(svg).Take();
+}
+
+absl::StatusOr<std::string> SvgText(const Subject& subject, const view::ResultDocument& result) {
+  BCCSKEL_ASSIGN_OR_RETURN(
+      const view::DisplaySurface surface,
+      view::MakeDisplaySurface(subject.object, kMostSvgTriangles, subject.context));
+  return SvgText({subject.title, result, surface, subject.result.skeleton_points, subject.context});
 }
 
 }  // namespace bccskel::exporting

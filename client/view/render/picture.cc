@@ -31,21 +31,22 @@ double FontSize(const PictureOptions& options) {
 }
 
 exporting::Projection ProjectionOf(const ResultDocument& result, const DisplaySurface& surface,
+                                   const std::vector<WorldPoint>& shown,
                                    const PictureOptions& options) {
   const Front front = FrontOf(result, surface.vertices);
   const double words = (kWordsAbove + kWordsBelow) * FontSize(options);
   return exporting::Projection(
       ViewFrom(front.view, options.turn.value_or(front.turn), options.climb.value_or(front.climb)),
-      surface.vertices,
+      shown,
       {static_cast<double>(kSamplesPerPixel * options.width),
        kSamplesPerPixel * std::max(options.height - words, options.height / 2.0)},
       kSamplesPerPixel * FontSize(options));
 }
 
 // Many curves must be thinner to stay distinguishable.
-double ThinnedBy(const ResultDocument& result, const DisplaySurface& surface) {
-  if (surface.vertices.empty()) return 1;
-  const auto [low, high] = BoxOf(surface.vertices);
+double ThinnedBy(const ResultDocument& result, const std::vector<WorldPoint>& shown) {
+  if (shown.empty()) return 1;
+  const auto [low, high] = BoxOf(shown);
   double edge = 0, length = 0;
   for (size_t axis = 0; axis < 3; ++axis) edge = std::max(edge, high[axis] - low[axis]);
   for (const ResultDocument::Edge& e : result.edges) length += e.length;
@@ -76,7 +77,8 @@ std::vector<exporting::ViewNormal> NormalsOfEitherSide(const SurfaceMesh& mesh) 
 
 Geometry GeometryOf(const ResultDocument& result, const DisplaySurface& surface,
                     const PictureOptions& options) {
-  const exporting::Projection projection = ProjectionOf(result, surface, options);
+  const std::vector<WorldPoint> shown = ShownPoints(result, surface.vertices);
+  const exporting::Projection projection = ProjectionOf(result, surface, shown, options);
   Geometry geometry = exporting::GlassOf(surface, projection);
   SheetSurface sheets = SheetSurfaceOf(result);
   geometry.sheets.mesh = {exporting::VerticesOf(sheets.vertices, projection),
@@ -86,8 +88,8 @@ Geometry GeometryOf(const ResultDocument& result, const DisplaySurface& surface,
   for (const double radius : sheets.radii) {
     geometry.sheets.colors.push_back(exporting::ColorOf(radius, radii));
   }
-  const double thickness = kSamplesPerPixel * std::min(options.width, options.height) / 320.0 *
-                           ThinnedBy(result, surface);
+  const double thickness =
+      kSamplesPerPixel * std::min(options.width, options.height) / 320.0 * ThinnedBy(result, shown);
   geometry.beads = exporting::BeadsOf(result, projection, thickness);
   const auto above = static_cast<float>(kSamplesPerPixel * kWordsAbove * FontSize(options));
   for (SurfaceVertex& v : geometry.glass.vertices) v[1] -= above;

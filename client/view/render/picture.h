@@ -27,7 +27,8 @@ inline constexpr int kMaxPictureSide = 16384;
 // Limit for the object's surface; fine enough for print.
 inline constexpr size_t kMostPictureTriangles = 1'000'000;
 
-// A PNG file: the object as tinted glass, its skeleton inside colored by radius, and a legend.
+// A PNG file: the object as tinted glass, its skeleton inside colored by radius, and a legend. With
+// an empty surface the skeleton alone.
 // Equal values give equal bytes for any number of threads, with the same fonts installed.
 // Needs:  kMinPictureSide <= width, height <= kMaxPictureSide.
 // Errors: CANCELLED, DEADLINE_EXCEEDED; RESOURCE_EXHAUSTED.

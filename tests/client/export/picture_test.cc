@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "client/export/json.h"
 #include "client/export/picture/caption.h"
 #include "client/export/picture/display_curve.h"
@@ -8,6 +10,8 @@
 #include "client/export/picture/glass_image.h"
 #include "client/export/picture/projection.h"
 #include "client/export/picture/svg.h"
+#include "client/export/subject_document.h"
+#include "client/view/first_view.h"
 #include "tests/client/export/sample_skeletons.h"
 
 namespace bccskel::exporting {
@@ -94,6 +98,73 @@ TEST(PictureTest, EveryKindOfSkeletonHasOneThatNamesItsTopologyAndNeedsNoNetwork
     EXPECT_THAT(svg, HasSubstr("(topology kept)"));
     EXPECT_THAT(svg, Not(HasSubstr("src=\"http")));
     EXPECT_THAT(svg, Not(HasSubstr("href=\"http")));
+  }
+}
+
+// Rows of branches, each along x.
+view::ResultDocument Comb(size_t branches, size_t points) {
+  view::ResultDocument document = DocumentOf(SampleOf(Shape::kTree));
+  document.nodes = {{.kind = "end", .position = {0, 0, 0}, .radius = 1}};
+  document.edges.clear();
+  for (size_t n = 0; n < branches; ++n) {
+    view::ResultDocument::Edge edge = {.source = 0,
+                                       .target = 0,
+                                       .points = {},
+                                       .radii = {},
+                                       .births = {},
+                                       .shifts = {},
+                                       .length = 1};
+    for (size_t p = 0; p < points; ++p) {
+      edge.points.push_back({static_cast<double>(p), static_cast<double>(n), 0});
+      edge.radii.push_back(1);
+    }
+    document.edges.push_back(std::move(edge));
+  }
+  return document;
+}
+
+TEST(PictureTest, ManyCurvesArePartOfItsImages) {
+  const std::string title = "comb";
+  const view::DisplaySurface no_object;
+  const std::string few = *SvgText({title, Comb(1'000, 10), no_object});
+  const std::string many = *SvgText({title, Comb(30'000, 10), no_object});
+  EXPECT_THAT(few, HasSubstr("<path class=\"h\""));
+  EXPECT_THAT(many, Not(HasSubstr("<path class=\"h\"")));
+  EXPECT_LT(many.size(), 4'000'000);
+}
+
+TEST(PictureTest, WithoutAnObjectShowsTheWholeCurves) {
+  const std::string title = "tree";
+  const view::DisplaySurface no_object;
+  const view::ResultDocument document = DocumentOf(SampleOf(Shape::kTree));
+  const std::string svg = *SvgText({title, document, no_object});
+  EXPECT_THAT(svg, HasSubstr("skeleton: " + Counted(document.edges.size(), "branch", "branches")));
+  const std::vector<WorldPoint> shown = view::ShownPoints(document, {});
+  for (const auto& edge : document.edges) {
+    for (const WorldPoint& p : edge.points) EXPECT_EQ(std::ranges::count(shown, p) > 0, true);
+  }
+}
+
+TEST(SubjectDocumentTest, EqualsTheOneReadFromTheText) {
+  for (const Sample& sample : Samples()) {
+    const view::ResultDocument read = DocumentOf(sample);
+    const view::ResultDocument made = *exporting::DocumentOf(sample.result, World());
+    const Subject subject = {sample.result, sample.object, "x"};
+    EXPECT_EQ(*SvgText(subject, made), *SvgText(subject, read));
+    EXPECT_EQ(made.options, read.options);
+    EXPECT_EQ(made.object_points, read.object_points);
+    ASSERT_EQ(made.edges.size(), read.edges.size());
+    for (size_t n = 0; n < read.edges.size(); ++n) {
+      EXPECT_EQ(made.edges[n].points, read.edges[n].points);
+      EXPECT_EQ(made.edges[n].radii, read.edges[n].radii);
+      EXPECT_EQ(made.edges[n].births, read.edges[n].births);
+      EXPECT_EQ(made.edges[n].shifts, read.edges[n].shifts);
+      EXPECT_EQ(made.edges[n].length, read.edges[n].length);
+      EXPECT_EQ(made.edges[n].pruning_level, read.edges[n].pruning_level);
+    }
+    EXPECT_EQ(made.sheets.points, read.sheets.points);
+    EXPECT_EQ(made.sheets.radii, read.sheets.radii);
+    EXPECT_EQ(made.sheets.births, read.sheets.births);
   }
 }
 
