@@ -35,7 +35,7 @@ constexpr const char* kFooter =
 std::string HintFor(std::string_view error) {
   if (error == "--object is required") {
     return "--object names the mesh, volume or image that the result was made from; `bccskel view` "
-           "also shows a result without it";
+           "and `bccskel render` show a result without it";
   }
   return "see --help";
 }

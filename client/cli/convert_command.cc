@@ -1,12 +1,22 @@
+#include <algorithm>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "client/cli/arguments.h"
 #include "client/cli/common_options.h"
 #include "client/cli/console.h"
+#include "client/cli/load_object.h"
 #include "client/cli/summaries.h"
 #include "client/cli/thinning_options.h"
+#include "client/export/atomic_file.h"
 #include "client/export/method_facts.h"
+#include "client/export/picture/svg.h"
 #include "client/export/skeleton_file.h"
+#include "client/view/display_surface.h"
+#include "client/view/page.h"
+#include "client/view/render/picture.h"
 #include "client/view/result_graph.h"
 #include "core/exec/status_macros.h"
 
@@ -20,38 +30,56 @@ std::string SummaryOf(const ConvertArguments& arguments, const std::vector<Writt
   return "{\"result\":" + JsonString(arguments.result) + ",\"outputs\":" + FilesJson(files) + "}\n";
 }
 
-absl::StatusOr<std::vector<WrittenFile>> WriteAll(const ConvertArguments& arguments,
-                                                  const exporting::GraphSubject& subject,
-                                                  const std::stop_token& stop) {
-  std::vector<WrittenFile> files;
-  for (const std::string& path : arguments.outputs) {
-    BCCSKEL_ASSIGN_OR_RETURN(std::string note, exporting::WriteGraphFile(path, subject, stop));
-    files.push_back({path, std::move(note)});
+// A picture of the curves alone, or the document itself.
+absl::StatusOr<std::string> Compose(exporting::SkeletonFormat format, const std::string& title,
+                                    const view::ResultDocument& result,
+                                    const exec::Context& context) {
+  using exporting::SkeletonFormat;
+  const view::DisplaySurface no_object;
+  if (format == SkeletonFormat::kJson) return *result.text;
+  if (format == SkeletonFormat::kHtml) return view::PageOf({title, result, view::Peeling()});
+  if (format == SkeletonFormat::kSvg) {
+    return exporting::SvgText(
+        {.title = title, .result = result, .surface = no_object, .context = context});
   }
-  return files;
+  view::PictureOptions options;
+  options.title = title;
+  return view::RenderPng(result, no_object, options, context);
 }
 
-}  // namespace
-
-void AddConvert(CLI::App& command, ConvertArguments& arguments) {
-  AddResult(command, arguments.result);
-  AddOutputs(command, arguments.outputs,
-             ".swc, .vtp, .graphml, .obj, .csv, .mrk.json, .glb or .precomputed")
-      ->check([](const std::string& path) {
-        const bool fits = exporting::HoldsGraph(path);
-        return fits ? ""
-                    : path +
-                          ": convert writes .swc, .vtp, .graphml, .obj, .csv, .mrk.json, "
-                          ".glb and .precomputed; view and render make pictures";
-      });
-  AddRoot(command, arguments.root);
-  AddSwcStep(command, arguments.swc);
-  AddJson(command, arguments.common);
+// Whether Compose() makes the file.
+bool HoldsDocument(const std::string& path) {
+  const absl::StatusOr<exporting::SkeletonFormat> format = exporting::SkeletonFormatOf(path);
+  return format.ok() &&
+         (*format == exporting::SkeletonFormat::kJson || exporting::ShowsObject(*format));
 }
 
-ExitCode Run(const ConvertArguments& arguments, const std::stop_token& stop) {
-  const absl::StatusOr<view::ResultGraph> result = view::ReadResultGraph(arguments.result);
-  if (!result.ok()) return Fail(result.status());
+absl::Status WriteDocument(const std::string& path, const std::string& title,
+                           const view::ResultDocument& result, const exec::Context& context) {
+  BCCSKEL_ASSIGN_OR_RETURN(const exporting::SkeletonFormat format,
+                           exporting::SkeletonFormatOf(path));
+  BCCSKEL_ASSIGN_OR_RETURN(const std::string text, Compose(format, title, result, context));
+  return exporting::WriteFileAtomically(path, text, context.stop);
+}
+
+ExitCode WriteDocuments(const ConvertArguments& arguments, const view::ResultDocument& result,
+                        const std::stop_token& stop, const std::vector<WrittenFile>& files) {
+  if (std::ranges::none_of(arguments.outputs, HoldsDocument)) return ExitCode::kOk;
+  LocalTeam team(arguments.common.threads, stop);
+  const std::string title(FileName(arguments.result));
+  for (const WrittenFile& file : files) {
+    if (!HoldsDocument(file.path)) continue;
+    const absl::Status written = WriteDocument(file.path, title, result, team.context());
+    if (!written.ok()) return FailWith(ExitCode::kOutput, written);
+  }
+  return ExitCode::kOk;
+}
+
+ExitCode WriteGraphs(const ConvertArguments& arguments, const view::ResultDocument& document,
+                     const std::stop_token& stop, std::vector<WrittenFile>& files) {
+  if (std::ranges::none_of(arguments.outputs, exporting::HoldsGraph)) return ExitCode::kOk;
+  const absl::StatusOr<view::ResultGraph> result = view::ResultGraphOf(document);
+  if (!result.ok()) return Fail(WithPath(result.status(), arguments.result));
   const std::optional<RootChoice>& root =
       arguments.root.has_value() ? arguments.root : result->root;
   std::optional<TreeOrder> order;
@@ -62,16 +90,57 @@ ExitCode Run(const ConvertArguments& arguments, const std::stop_token& stop) {
     if (!outside.empty()) Warn(arguments.result + ": " + outside);
     order = OrderTrees(result->graph, *root);
   }
-  const auto files = WriteAll(arguments,
-                              {.graph = result->graph,
-                               .context = {.labels = {},
-                                           .facts = exporting::MethodFactsOf(*result),
-                                           .order = std::move(order)},
-                               .world = {Known(result->world), Known(result->unit)},
-                               .swc = arguments.swc},
-                              stop);
-  if (!files.ok()) return FailWith(ExitCode::kOutput, files.status());
-  return Print(SummaryOf(arguments, *files));
+  const exporting::GraphSubject subject = {.graph = result->graph,
+                                           .context = {.labels = {},
+                                                       .facts = exporting::MethodFactsOf(*result),
+                                                       .order = std::move(order)},
+                                           .world = {Known(result->world), Known(result->unit)},
+                                           .swc = arguments.swc};
+  for (WrittenFile& file : files) {
+    if (!exporting::HoldsGraph(file.path)) continue;
+    absl::StatusOr<std::string> note = exporting::WriteGraphFile(file.path, subject, stop);
+    if (!note.ok()) return FailWith(ExitCode::kOutput, note.status());
+    file.note = *std::move(note);
+  }
+  return ExitCode::kOk;
+}
+
+}  // namespace
+
+void AddConvert(CLI::App& command, ConvertArguments& arguments) {
+  AddResult(command, arguments.result);
+  AddOutputs(command, arguments.outputs,
+             ".json, .swc, .vtp, .graphml, .obj, .csv, .mrk.json, .glb, .precomputed, or a picture "
+             "of the curves alone: .svg, .png or .html")
+      ->check([](const std::string& path) {
+        const bool fits = exporting::HoldsGraph(path) || HoldsDocument(path);
+        return fits ? ""
+                    : path +
+                          ": convert writes .json, .swc, .vtp, .graphml, .obj, .csv, .mrk.json, "
+                          ".glb, .precomputed, .svg, .png and .html; reconstruct makes volumes";
+      });
+  AddRoot(command, arguments.root);
+  AddSwcStep(command, arguments.swc);
+  AddJson(command, arguments.common);
+}
+
+ExitCode Run(const ConvertArguments& arguments, const std::stop_token& stop) {
+  const auto ends_in_json = [](const std::string& path) {
+    return exporting::SkeletonFormatOf(path).value() == exporting::SkeletonFormat::kJson;
+  };
+  if (arguments.root.has_value() && std::ranges::any_of(arguments.outputs, ends_in_json)) {
+    return FailWith(ExitCode::kUsage,
+                    absl::InvalidArgumentError(
+                        "--root orders the other formats; a .json file stays as the result is"));
+  }
+  const absl::StatusOr<view::ResultDocument> document = view::ReadResultDocument(arguments.result);
+  if (!document.ok()) return Fail(document.status());
+  std::vector<WrittenFile> files;
+  for (const std::string& path : arguments.outputs) files.push_back({path, ""});
+  ExitCode code = WriteGraphs(arguments, *document, stop, files);
+  if (code == ExitCode::kOk) code = WriteDocuments(arguments, *document, stop, files);
+  if (code != ExitCode::kOk) return code;
+  return Print(SummaryOf(arguments, files));
 }
 
 }  // namespace bccskel::cli

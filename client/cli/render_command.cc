@@ -1,3 +1,4 @@
+#include <tuple>
 #include <utility>
 
 #include "client/cli/arguments.h"
@@ -9,22 +10,31 @@
 #include "client/cli/summaries.h"
 #include "client/export/atomic_file.h"
 #include "client/export/picture/caption.h"
+#include "client/export/picture/svg.h"
 #include "client/export/text.h"
 #include "client/view/display_surface.h"
+#include "core/exec/status_macros.h"
 
 namespace bccskel::cli {
 namespace {
 
+constexpr std::pair kSvgSize = {exporting::kSvgWidth, exporting::kSvgHeight};
+
+bool IsSvg(const RenderArguments& arguments) { return arguments.output.ends_with(".svg"); }
+
 std::string SummaryOf(const RenderArguments& arguments, size_t triangles) {
-  const view::PictureOptions& picture = arguments.picture;
+  view::PictureOptions picture = arguments.picture;
+  if (IsSvg(arguments)) std::tie(picture.width, picture.height) = kSvgSize;
   exporting::Text text;
   if (arguments.common.summary == SummaryStyle::kJson) {
     text.Add(FilesJson(arguments), ",\"triangles\":", triangles, ",\"width\":", picture.width,
              ",\"height\":", picture.height, "}\n");
   } else {
-    text.Add("surface:     ", exporting::GroupedDigits(triangles),
-             " triangles\nwritten:     ", arguments.output, ", ", picture.width, " x ",
-             picture.height, " pixels\n");
+    if (!arguments.object.empty()) {
+      text.Add("surface:     ", exporting::GroupedDigits(triangles), " triangles\n");
+    }
+    text.Add("written:     ", arguments.output, ", ", picture.width, " x ", picture.height,
+             " pixels\n");
   }
   return std::move(text).Take();
 }
@@ -46,7 +56,7 @@ void AddPicture(CLI::App& command, view::PictureOptions& picture) {
   command
       .add_option_function<std::string>(
           "--size", [&picture](const std::string& text) { ReadSize(text, picture); },
-          "Size in pixels (default 1200x900)")
+          "Size in pixels (default 1200x900); .svg files have one size and three views")
       ->option_text("WIDTHxHEIGHT");
   command
       .add_option("--turn", picture.turn,
@@ -61,29 +71,68 @@ void AddPicture(CLI::App& command, view::PictureOptions& picture) {
       ->option_text("DEGREES");
 }
 
+// What is drawn; without an object the surface is empty.
+struct Shown {
+  std::string title;
+  view::ResultDocument result;
+  view::DisplaySurface surface;
+};
+
+absl::StatusOr<Shown> Load(const RenderArguments& arguments, const exec::Context& context) {
+  if (arguments.object.empty()) {
+    BCCSKEL_ASSIGN_OR_RETURN(view::ResultDocument result,
+                             view::ReadResultDocument(arguments.result));
+    return Shown{std::string(FileName(arguments.result)), std::move(result), {}};
+  }
+  BCCSKEL_ASSIGN_OR_RETURN(ResultAndObject loaded, LoadResultAndObject(arguments, context));
+  const size_t most = IsSvg(arguments) ? exporting::kMostSvgTriangles : view::kMostPictureTriangles;
+  BCCSKEL_ASSIGN_OR_RETURN(view::DisplaySurface surface,
+                           view::MakeDisplaySurface(loaded.object, most, context));
+  return Shown{std::string(FileName(arguments.object)), std::move(loaded.result),
+               std::move(surface)};
+}
+
+absl::StatusOr<std::string> Draw(const RenderArguments& arguments, const Shown& shown,
+                                 const exec::Context& context) {
+  if (IsSvg(arguments)) {
+    return exporting::SvgText({.title = shown.title,
+                               .result = shown.result,
+                               .surface = shown.surface,
+                               .context = context});
+  }
+  view::PictureOptions options = arguments.picture;
+  options.title = shown.title;
+  return view::RenderPng(shown.result, shown.surface, options, context);
+}
+
+bool AsksForAView(const view::PictureOptions& picture) {
+  const view::PictureOptions none;
+  return picture.turn.has_value() || picture.climb.has_value() || picture.width != none.width ||
+         picture.height != none.height;
+}
+
 }  // namespace
 
 void AddRender(CLI::App& command, RenderArguments& arguments) {
-  AddResultAndObject(command, arguments, ObjectNeed::kRequired);
-  AddOutput(command, arguments.output, "Picture", {".png"});
+  AddResultAndObject(command, arguments, ObjectNeed::kOptional);
+  AddOutput(command, arguments.output, "Picture", {".png", ".svg"});
   AddPicture(command, arguments.picture);
 }
 
 ExitCode Run(const RenderArguments& arguments, const std::stop_token& stop) {
+  if (IsSvg(arguments) && AsksForAView(arguments.picture)) {
+    return FailWith(ExitCode::kUsage,
+                    absl::InvalidArgumentError("--size, --turn and --climb are for .png; an .svg "
+                                               "has one size and three views"));
+  }
   LocalTeam team(arguments.common.threads, stop);
-  const absl::StatusOr<ResultAndObject> loaded = LoadResultAndObject(arguments, team.context());
-  if (!loaded.ok()) return Fail(loaded.status());
-  const absl::StatusOr<view::DisplaySurface> surface =
-      view::MakeDisplaySurface(loaded->object, view::kMostPictureTriangles, team.context());
-  if (!surface.ok()) return Fail(surface.status());
-  view::PictureOptions options = arguments.picture;
-  options.title = FileName(arguments.object);
-  const absl::StatusOr<std::string> png =
-      view::RenderPng(loaded->result, *surface, options, team.context());
-  if (!png.ok()) return Fail(png.status());
-  const absl::Status written = exporting::WriteFileAtomically(arguments.output, *png, stop);
+  const absl::StatusOr<Shown> shown = Load(arguments, team.context());
+  if (!shown.ok()) return Fail(shown.status());
+  const absl::StatusOr<std::string> picture = Draw(arguments, *shown, team.context());
+  if (!picture.ok()) return Fail(picture.status());
+  const absl::Status written = exporting::WriteFileAtomically(arguments.output, *picture, stop);
   if (!written.ok()) return FailWith(ExitCode::kOutput, written);
-  return Print(SummaryOf(arguments, surface->triangles.size()));
+  return Print(SummaryOf(arguments, shown->surface.triangles.size()));
 }
 
 }  // namespace bccskel::cli

@@ -320,8 +320,41 @@ class FormatsTest(harness.TestCase):
                 lambda d: d["edges"][0].update(births=[1]))
         refused("pruning_level is not", lambda d: d["edges"][0].update(pruning_level="x"))
         refused("preparing[0] is not a step", lambda d: d.update(preparing=[{"step": "x"}]))
-        self.fail_with(2, "convert writes .swc", "convert", self.folders / "tree" / "s.json",
-                       "-o", self.path("x.html"))
+        self.fail_with(2, "convert writes .json", "convert", self.folders / "tree" / "s.json",
+                       "-o", self.path("x.exr"))
+        self.fail_with(2, "--root orders the other formats", "convert",
+                       self.folders / "tree" / "s.json", "--root", "thickest-node",
+                       "-o", self.path("x.json"))
+
+    def test_a_result_without_its_object_becomes_a_picture_and_itself(self):
+        for shape in SHAPES:
+            self.folder = self.folders / shape
+            result = self.path("s.json")
+            endings = ("json", "svg", "swc", "png", "html")
+            summary = json.loads(self.succeed(
+                "convert", result, "--json", *(w for e in endings for w in ("-o", self.path(f"d.{e}")))))
+            self.assertEqual([file["path"] for file in summary["outputs"]],
+                             [self.path(f"d.{e}") for e in endings])
+            self.succeed("view", result, "-o", self.path("e.html"))
+            for ending in ("svg", "png"):
+                drawn = json.loads(self.succeed("render", result, "--json", "-o", self.path(f"e.{ending}")))
+                self.assertEqual((drawn["object"], drawn["triangles"]), ("", 0))
+            for ending, same in (("json", "s"), ("swc", "s"), ("svg", "e"), ("png", "e"), ("html", "e")):
+                with self.subTest(shape=shape, ending=ending):
+                    self.assertEqual((self.folder / f"d.{ending}").read_bytes(),
+                                     (self.folder / f"{same}.{ending}").read_bytes())
+            picture = xml.etree.ElementTree.parse(self.path("d.svg"))
+            self.assertIn("s.json", "".join(picture.getroot().itertext()))
+
+    def test_render_draws_the_object_in_svg_in_its_only_size(self):
+        words = ("render", self.folders / "tree" / "s.json", "--object", self.folders / "tree" / "v.bccb",
+                 "-o", self.path("x.svg"))
+        drawn = json.loads(self.succeed(*words, "--json"))
+        self.assertGreater(drawn["triangles"], 100)
+        size = xml.etree.ElementTree.parse(self.path("x.svg")).getroot().attrib
+        self.assertEqual((str(drawn["width"]), str(drawn["height"])), (size["width"], size["height"]))
+        for option in (("--turn", 0), ("--climb", 1), ("--size", "500x500")):
+            self.fail_with(2, "are for .png", *words, *option)
 
     def test_precomputed_skeletons_are_in_nanometers(self):
         (self.folder / "v.nrrd").write_bytes(

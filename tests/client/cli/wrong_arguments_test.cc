@@ -204,7 +204,7 @@ const Wrong kWrong[] = {
      "not for --pruning none"},
     {"threshold_0", "skeletonize a.off -o a.swc --pruning-threshold 0",
      "--pruning-threshold: must be above 0, up to 1e9, not 0; --pruning none keeps every branch"},
-    {"picture_without_object", "render a.json -o a.png", "hint: --object names the mesh"},
+    {"balls_without_object", "reconstruct a.json -o a.exr", "hint: --object names the mesh"},
     {"unknown_bench", "bench core --shape sofa", "--shape sofa: must be ball"},
     {"unknown_shape", "generate teapot -o a.exr", "hollow-ball"},
 };
