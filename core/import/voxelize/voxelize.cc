@@ -173,7 +173,8 @@ class Voxelizer {
     const SolidTopology found = AsSolid(*result.topology);
     if (surface_.report.closure == SurfaceClosure::kOpen) {
       warnings_.push_back("the volume has " + InWords(found) +
-                          "; the topology of an open mesh is not known, so check them");
+                          "; the topology of an open mesh is not known, so check them" +
+                          (found.components > 1 ? " (--join-gaps X joins components)" : ""));
       return absl::OkStatus();
     }
     const std::optional<SolidTopology> mesh = ExpectedTopology(surface_.report, result.fill);

@@ -170,7 +170,7 @@ TEST(OptionFacts, NameEveryOptionOnce) {
   }
   EXPECT_EQ(facts.front().value, "1");
   EXPECT_EQ(facts[1].value, "filled");
-  EXPECT_EQ(facts[7].value, "symmetric");
+  EXPECT_EQ(facts[8].value, "symmetric");
 }
 
 }  // namespace
