@@ -38,7 +38,6 @@ constexpr double kOffArcAtRoot = kOffArc / 2;  // the same where the arc begins 
 constexpr double kWide = 1.8, kRound = 1.5, kBeforeDisc = 3;
 constexpr double kLimbAfterFlat = 0.95;  // least significance; corners of strips reach 0.9
 constexpr double kPointed = 0.7;  // largest radius at the end of a pointed limb, in its root's
-constexpr double kMostRoughness = 0.5;  // above this, single points at the end may be noise
 
 class TipPlacer {
  public:
@@ -239,10 +238,9 @@ class TipPlacer {
     return aim;
   }
 
-  // Whether the limb narrows toward its end. On a rough surface single points there may be noise.
+  // Whether the limb narrows toward its end. Where noise is, single points there may be noise.
   bool HasPoint() const {
-    return noise_.roughness < kMostRoughness &&
-           set_.RadiusOf(path_.back()) < kPointed * root_radius_;
+    return noise_.roughness == 0 && set_.RadiusOf(path_.back()) < kPointed * root_radius_;
   }
 
   // On a noisy surface the path may end in single points, which are no tip.
