@@ -26,6 +26,11 @@ class ComponentSets {
   const PhaseComponents& pieces() const { return pieces_; }
   // The component of a piece: of a brick's main component or of a fragment.
   size_t SetOf(size_t piece) { return sets_.Find(piece); }
+  // The component of a point. Needs: p is a point of `object`, whose components these are.
+  size_t ComponentOf(const Volume& object, LatticePoint p) {
+    const BrickAddress at = AddressOf(p);
+    return SetOf(pieces_.NumberOf(*object.Find(BrickKey(at.brick)), at.bit));
+  }
   // Component names are below this.
   size_t name_limit() const { return sets_.size(); }
 

@@ -82,13 +82,7 @@ class TunnelFiller {
     return context_.StopStatus();
   }
 
-  Piece& PieceOf(LatticePoint p) { return judged_[ComponentOf(pieces_, *names_, p)]; }
-
-  // Needs: p is a point of `volume`.
-  static size_t ComponentOf(const Volume& volume, ComponentSets& sets, LatticePoint p) {
-    const BrickAddress at = AddressOf(p);
-    return sets.SetOf(sets.pieces().NumberOf(*volume.Find(BrickKey(at.brick)), at.bit));
-  }
+  Piece& PieceOf(LatticePoint p) { return judged_[names_->ComponentOf(pieces_, p)]; }
 
   // Points join in the order of ForEachPoint(). Pieces do not touch each other, so each has its own
   // sum.
@@ -100,7 +94,7 @@ class TunnelFiller {
       const LatticePoint q = p + Direction(n).offset();
       if (object_.Contains(q)) {
         mask = static_cast<NeighborMask>(mask | Direction(n).mask());
-        const size_t component = ComponentOf(object_, components, q);
+        const size_t component = components.ComponentOf(object_, q);
         if (piece.touches == Piece::kNone) piece.touches = component;
         if (piece.touches != component) piece.refused = true;
       } else if (cavities_filled_.Contains(q)) {
@@ -171,7 +165,7 @@ class TunnelFiller {
     std::vector<size_t> way_of(judged_.size(), kNone);
     std::vector<Way> ways;
     pieces_.ForEachPoint([&](LatticePoint p) {
-      const size_t piece = ComponentOf(pieces_, *names_, p);
+      const size_t piece = names_->ComponentOf(pieces_, p);
       if (!judged_[piece].IsFilled()) return;
       if (way_of[piece] == kNone) {
         way_of[piece] = ways.size();
@@ -182,7 +176,7 @@ class TunnelFiller {
         const LatticePoint q = p + offset;
         if (closed.Contains(q) && !enclosed.Contains(q)) continue;
         const size_t region =
-            closed.Contains(q) ? ComponentOf(enclosed, regions, q) : regions.name_limit();
+            closed.Contains(q) ? regions.ComponentOf(enclosed, q) : regions.name_limit();
         if (leads_to.empty() || leads_to.back() != region) leads_to.push_back(region);
       }
     });

@@ -73,11 +73,7 @@ class GapJoiner {
 
   double Between(LatticePoint a, LatticePoint b) const { return StraightDistance(a, b, scale_); }
 
-  // Needs: a point of the object.
-  size_t ComponentOf(LatticePoint p) {
-    const BrickAddress at = AddressOf(p);
-    return names_.SetOf(names_.pieces().NumberOf(*object_.Find(BrickKey(at.brick)), at.bit));
-  }
+  size_t ComponentOf(LatticePoint p) { return names_.ComponentOf(object_, p); }
 
   void Start() {
     std::vector<std::pair<uint64_t, size_t>> sizes(names_.name_limit());  // and first points

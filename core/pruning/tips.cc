@@ -238,7 +238,8 @@ class TipPlacer {
     return aim;
   }
 
-  // Whether the limb narrows toward its end. Where noise is, single points there may be noise.
+  // Whether the limb narrows toward its end. On a surface that is not smooth, single points there
+  // may be noise.
   bool HasPoint() const {
     return noise_.roughness == 0 && set_.RadiusOf(path_.back()) < kPointed * root_radius_;
   }
