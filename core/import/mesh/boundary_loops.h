@@ -18,13 +18,16 @@ namespace bccskel {
 std::vector<std::vector<uint32_t>> BoundaryLoops(std::span<const TriangleSide> sides,
                                                  size_t vertices);
 
+// The vertex at which a polygon of so many vertices is split.
+constexpr size_t MiddleOfCap(size_t vertices) { return (vertices - 1) / 2; }
+
 // Splits the polygon of the vertices from position `begin` to `end` of a loop, closed by the chord
 // from the last to the first: visits its triangle (begin, middle, end), then the polygons beside
 // it in the same way. So all triangles but a few lie near their part of the loop.
 template <typename Visit>
 void ForEachTriangleOfCap(size_t begin, size_t end, Visit visit) {
   if (end - begin < 2) return;
-  const size_t middle = begin + (end - begin) / 2;
+  const size_t middle = begin + MiddleOfCap(end - begin + 1);
   visit(begin, middle, end);
   ForEachTriangleOfCap(begin, middle, visit);
   ForEachTriangleOfCap(middle, end, visit);

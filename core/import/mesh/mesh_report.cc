@@ -242,11 +242,9 @@ double AreaOf(std::span<const Vertex> vertices, std::span<const Triangle> triang
   return area;
 }
 
-double HoleShare(const Reading& reading) {
-  const std::span<const Vertex> vertices = reading.mesh.vertices;
-  const double surface = AreaOf(vertices, reading.mesh.triangles);
-  const double holes = AreaOf(vertices, CapsOf(BoundaryLoops(reading.sides, vertices.size())));
-  return surface > 0 ? holes / surface : 0;
+double HoleShare(const Surface& surface) {
+  const double whole = AreaOf(surface.vertices, surface.triangles);
+  return whole > 0 ? AreaOf(surface.vertices, CapsOf(surface.boundary_loops)) / whole : 0;
 }
 
 Vertex ToWorld(const Surface& surface, const Vertex& unit) {
@@ -350,18 +348,19 @@ Surface PrepareSurface(const TriangleMesh& mesh) {
   ScaleToUnit(unit, surface);
   Reading reading = ReadOneSide(ChooseReading(unit), surface.report);
   ReportEdges(reading, surface.report);
-  if (surface.report.closure == SurfaceClosure::kOpen) {
-    surface.report.hole_share = HoleShare(reading);
-  }
   surface.report.dropped_triangles =
       mesh.triangles.size() - reading.mesh.triangles.size() - surface.report.two_sided_triangles;
   uint32_t components = 0;
   surface.component_of = LabelComponents(reading, components);
   surface.report.components.resize(components);
   ReportGenus(EulerCharacteristics(reading, surface.component_of, components), surface.report);
+  if (surface.report.closure == SurfaceClosure::kOpen) {
+    surface.boundary_loops = BoundaryLoops(reading.sides, reading.mesh.vertices.size());
+  }
   surface.vertices = std::move(reading.mesh.vertices);
   surface.triangles = std::move(reading.mesh.triangles);
   MeasureComponents(surface);
+  surface.report.hole_share = HoleShare(surface);
   if (surface.report.closure != SurfaceClosure::kOpen) FindNesting(surface);
   SumVolumes(surface);
   WorldVolumes(surface);

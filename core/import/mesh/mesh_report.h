@@ -80,10 +80,11 @@ MeshReport AnalyzeMesh(const TriangleMesh& mesh);
 struct Surface {
   std::vector<TriangleMesh::Vertex> vertices;  // 0..1 on the longest axis, the others shorter
   std::vector<TriangleMesh::Triangle> triangles;
-  std::vector<uint32_t> component_of;     // for each triangle
-  std::array<double, 3> lower = {};       // world position of (0, 0, 0)
-  std::array<double, 3> upper_unit = {};  // far corner of the box in units
-  double half_size = 0;                   // half the world length of the unit; always finite
+  std::vector<uint32_t> component_of;                 // for each triangle
+  std::vector<std::vector<uint32_t>> boundary_loops;  // of an open surface, see BoundaryLoops()
+  std::array<double, 3> lower = {};                   // world position of (0, 0, 0)
+  std::array<double, 3> upper_unit = {};              // far corner of the box in units
+  double half_size = 0;    // half the world length of the unit; always finite
   double unit_volume = 0;  // sum of |volume|, walls of cavities negative, in cubes of the unit
   MeshReport report;
 };

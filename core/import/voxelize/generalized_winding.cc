@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/import/mesh/boundary_loops.h"
 #include "core/import/voxelize/grid_fit.h"
 #include "core/lattice/lattice_point.h"
 
@@ -115,7 +116,7 @@ GeneralizedWindingRule::GeneralizedWindingRule(std::span<const GridPoint> vertic
 // As ForEachTriangleOfCap() splits it.
 int32_t GeneralizedWindingRule::AddPatch(std::span<const Vector> loop) {
   if (loop.size() < 3) return kEdge;
-  const size_t half = (loop.size() - 1) / 2;
+  const size_t half = MiddleOfCap(loop.size());
   Patch patch = {{loop.front(), loop[half], loop.back()}};
   const auto& [a, b, c] = patch.corners;
   patch.beyond = {AddPatch(loop.first(half + 1)), AddPatch(loop.subspan(half))};

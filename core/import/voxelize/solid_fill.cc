@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/import/mesh/boundary_loops.h"
 #include "core/import/voxelize/generalized_winding.h"
 #include "core/import/voxelize/row_fill.h"
 #include "core/import/voxelize/thin_parts.h"
@@ -59,8 +60,7 @@ SolidFill::SolidFill(const Surface& surface, FillRule rule, uint64_t max_points)
 }
 
 void SolidFill::AddCaps() {
-  loops_ = BoundaryLoops(SortedSides(surface_.triangles), surface_.vertices.size());
-  const std::vector<TriangleMesh::Triangle> caps = CapsOf(loops_);
+  const std::vector<TriangleMesh::Triangle> caps = CapsOf(surface_.boundary_loops);
   triangles_.insert(triangles_.end(), caps.begin(), caps.end());
   const int8_t sign = SignedVolume(surface_.vertices, triangles_) < 0 ? -1 : 1;
   signs_.assign(triangles_.size(), sign);
@@ -76,8 +76,9 @@ FillRequest SolidFill::RequestOn(const GridFit& fit) const {
 absl::StatusOr<Volume> SolidFill::Fill(const FillRequest& request,
                                        const exec::Context& context) const {
   if (rule_ == FillRule::kParity) return FillRows(request, ParityRule(), context);
-  if (loops_.empty()) return FillRows(request, WindingRule(), context);
-  const GeneralizedWindingRule rule(request.vertices, loops_, request.extent, signs_.front());
+  if (surface_.boundary_loops.empty()) return FillRows(request, WindingRule(), context);
+  const GeneralizedWindingRule rule(request.vertices, surface_.boundary_loops, request.extent,
+                                    signs_.front());
   return FillRows(request, rule, context);
 }
 

@@ -6,7 +6,6 @@
 
 #include "absl/status/statusor.h"
 #include "core/exec/context.h"
-#include "core/import/mesh/boundary_loops.h"
 #include "core/import/mesh/mesh_report.h"
 #include "core/import/voxelize/fill_rule.h"
 #include "core/import/voxelize/grid_fit.h"
@@ -38,7 +37,6 @@ class SolidFill {
   const uint64_t max_points_;
   std::vector<TriangleMesh::Triangle> triangles_;  // of the surface, then of the caps
   std::vector<int8_t> signs_;                      // per triangle: +1, or -1 to turn it outward
-  std::vector<std::vector<uint32_t>> loops_;  // of the boundary; none when the surface is closed
 };
 
 }  // namespace bccskel
