@@ -1,12 +1,15 @@
 #include "client/export/precomputed.h"
 
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <bit>
 #include <cerrno>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -17,6 +20,7 @@
 #include <utility>
 #include <vector>
 
+#include "absl/strings/str_replace.h"
 #include "client/export/atomic_file.h"
 #include "core/exec/status_macros.h"
 #include "core/lattice/length_unit.h"
@@ -72,9 +76,11 @@ bool FitsFloat(const CurvePoint& point, double scale) {
 
 class Composer {
  public:
-  Composer(const SkeletonGraph& graph, const PrecomputedOptions& options)
+  Composer(const SkeletonGraph& graph, const PrecomputedOptions& options,
+           const std::stop_token& stop)
       : graph_(graph),
         options_(options),
+        stop_(stop),
         scale_(NanometersOf(options.world.unit).value_or(1)),
         vertex_of_node_(graph.nodes.size()) {}
 
@@ -85,13 +91,16 @@ class Composer {
     }
     std::vector<std::vector<CurvePoint>> curves;
     for (const SkeletonEdge& edge : graph_.edges) {
+      if (stop_.stop_requested()) break;
       curves.push_back(SampledCurve(graph_, edge, options_.sampling));
       // The only kind of node that a smooth curve moves.
       const bool moves = graph_.nodes[edge.source].kind == NodeKind::kLoop;
       if (moves) places[edge.source].at = curves.back().front().at;
     }
     for (size_t n = 0; n < places.size(); ++n) BCCSKEL_RETURN_IF_ERROR(AddNode(n, places[n]));
-    for (size_t n = 0; n < curves.size(); ++n) BCCSKEL_RETURN_IF_ERROR(AddCurve(n, curves[n]));
+    for (size_t n = 0; n < curves.size() && !stop_.stop_requested(); ++n) {
+      BCCSKEL_RETURN_IF_ERROR(AddCurve(n, curves[n]));
+    }
     return std::move(segments_);
   }
 
@@ -125,9 +134,56 @@ class Composer {
 
   const SkeletonGraph& graph_;
   const PrecomputedOptions& options_;
+  const std::stop_token& stop_;
   const double scale_;
   std::vector<uint32_t> vertex_of_node_;
   std::map<uint64_t, Segment> segments_;
+};
+
+// Files that appear in a folder together, or not at all: a writer may fail or be stopped.
+class FolderFiles {
+ public:
+  explicit FolderFiles(std::string folder)
+      : folder_(std::move(folder)), drafts_(folder_ + "/.partXXXXXX") {}
+  FolderFiles(const FolderFiles&) = delete;
+  FolderFiles& operator=(const FolderFiles&) = delete;
+  ~FolderFiles() {
+    for (const std::string& name : names_) ::unlink((drafts_ + "/" + name).c_str());
+    ::rmdir(drafts_.c_str());
+    if (is_new_) ::rmdir(folder_.c_str());  // unless it has files
+  }
+
+  // Creates the folder if missing.
+  absl::Status Begin() {
+    is_new_ = ::mkdir(folder_.c_str(), 0777) == 0;
+    if ((is_new_ || errno == EEXIST) && ::mkdtemp(drafts_.data()) != nullptr) {
+      return absl::OkStatus();
+    }
+    return absl::ErrnoToStatus(errno, "cannot write to the folder " + folder_);
+  }
+
+  absl::Status Add(const std::string& name, std::string_view bytes, const std::stop_token& stop) {
+    names_.push_back(name);
+    const absl::Status status = WriteFileAtomically(drafts_ + "/" + name, bytes, stop);
+    if (status.ok()) return status;
+    return absl::Status(status.code(), absl::StrReplaceAll(status.message(), {{drafts_, folder_}}));
+  }
+
+  // In the order of Add(). Call it once.
+  absl::Status Commit() {
+    for (const std::string& name : names_) {
+      if (std::rename((drafts_ + "/" + name).c_str(), (folder_ + "/" + name).c_str()) != 0) {
+        return absl::ErrnoToStatus(errno, "cannot write " + folder_ + "/" + name);
+      }
+    }
+    return absl::OkStatus();
+  }
+
+ private:
+  const std::string folder_;
+  std::string drafts_;  // a folder in it
+  bool is_new_ = false;
+  std::vector<std::string> names_;
 };
 
 std::string NoteOf(const SkeletonGraph& graph, const World& world) {
@@ -162,15 +218,14 @@ absl::StatusOr<std::string> WritePrecomputed(const std::string& folder, const Sk
                                              const std::stop_token& stop) {
   const std::string path = WithoutSlashes(folder);
   BCCSKEL_RETURN_IF_ERROR(CheckInfo(path + "/info"));
-  BCCSKEL_ASSIGN_OR_RETURN(const auto segments, Composer(graph, options).Run());
-  if (::mkdir(path.c_str(), 0777) != 0 && errno != EEXIST) {
-    return absl::ErrnoToStatus(errno, "cannot create the folder " + path);
-  }
+  BCCSKEL_ASSIGN_OR_RETURN(const auto segments, Composer(graph, options, stop).Run());
+  FolderFiles files(path);
+  BCCSKEL_RETURN_IF_ERROR(files.Begin());
   for (const auto& [label, segment] : segments) {
-    BCCSKEL_RETURN_IF_ERROR(
-        WriteFileAtomically(path + "/" + std::to_string(label), segment.Bytes(), stop));
+    BCCSKEL_RETURN_IF_ERROR(files.Add(std::to_string(label), segment.Bytes(), stop));
   }
-  BCCSKEL_RETURN_IF_ERROR(WriteFileAtomically(path + "/info", InfoText(), stop));
+  BCCSKEL_RETURN_IF_ERROR(files.Add("info", InfoText(), stop));
+  BCCSKEL_RETURN_IF_ERROR(files.Commit());
   return NoteOf(graph, options.world);
 }
 
