@@ -37,7 +37,8 @@ absl::StatusOr<std::string> Compose(exporting::SkeletonFormat format, const std:
   using exporting::SkeletonFormat;
   const view::DisplaySurface no_object;
   if (format == SkeletonFormat::kJson) return *result.text;
-  if (format == SkeletonFormat::kHtml) return view::PageOf({title, result, view::Peeling()});
+  if (format == SkeletonFormat::kHtml)
+    return view::PageOf({title, result, view::Peeling()}, context);
   if (format == SkeletonFormat::kSvg) {
     return exporting::SvgText(
         {.title = title, .result = result, .surface = no_object, .context = context});
@@ -78,7 +79,7 @@ ExitCode WriteDocuments(const ConvertArguments& arguments, const view::ResultDoc
 ExitCode WriteGraphs(const ConvertArguments& arguments, const view::ResultDocument& document,
                      const std::stop_token& stop, std::vector<WrittenFile>& files) {
   if (std::ranges::none_of(arguments.outputs, exporting::HoldsGraph)) return ExitCode::kOk;
-  const absl::StatusOr<view::ResultGraph> result = view::ResultGraphOf(document);
+  const absl::StatusOr<view::ResultGraph> result = view::ResultGraphOf(document, stop);
   if (!result.ok()) return Fail(WithPath(result.status(), arguments.result));
   const std::optional<RootChoice>& root =
       arguments.root.has_value() ? arguments.root : result->root;
@@ -88,17 +89,18 @@ ExitCode WriteGraphs(const ConvertArguments& arguments, const view::ResultDocume
     if (!fits.ok()) return FailWith(ExitCode::kUsage, fits);
     const std::string outside = RootWarning(*root, result->graph);
     if (!outside.empty()) Warn(arguments.result + ": " + outside);
-    order = OrderTrees(result->graph, *root);
+    order = OrderTrees(result->graph, *root, stop);
   }
   const exporting::GraphSubject subject = {.graph = result->graph,
                                            .context = {.labels = {},
                                                        .facts = exporting::MethodFactsOf(*result),
-                                                       .order = std::move(order)},
+                                                       .order = std::move(order),
+                                                       .stop = stop},
                                            .world = {Known(result->world), Known(result->unit)},
                                            .swc = arguments.swc};
   for (WrittenFile& file : files) {
     if (!exporting::HoldsGraph(file.path)) continue;
-    absl::StatusOr<std::string> note = exporting::WriteGraphFile(file.path, subject, stop);
+    absl::StatusOr<std::string> note = exporting::WriteGraphFile(file.path, subject);
     if (!note.ok()) return FailWith(ExitCode::kOutput, note.status());
     file.note = *std::move(note);
   }
@@ -133,7 +135,8 @@ ExitCode Run(const ConvertArguments& arguments, const std::stop_token& stop) {
                     absl::InvalidArgumentError(
                         "--root orders the other formats; a .json file stays as the result is"));
   }
-  const absl::StatusOr<view::ResultDocument> document = view::ReadResultDocument(arguments.result);
+  const absl::StatusOr<view::ResultDocument> document =
+      view::ReadResultDocument(arguments.result, stop);
   if (!document.ok()) return Fail(document.status());
   std::vector<WrittenFile> files;
   for (const std::string& path : arguments.outputs) files.push_back({path, ""});

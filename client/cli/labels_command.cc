@@ -44,8 +44,9 @@ class LabelFiles {
  public:
   // Needs: exporting::CheckLabelOutput() is OK for all.
   LabelFiles(const std::vector<std::string>& paths, const std::optional<RootChoice>& root,
-             exporting::World world, exporting::CurveSampling swc)
+             exporting::World world, exporting::CurveSampling swc, std::stop_token stop)
       : root_(root), world_(std::move(world)), swc_(swc), all_(root, world_) {
+    context_.stop = std::move(stop);
     for (const std::string& path : paths) {
       (exporting::IsForEachLabel(path) ? paths_of_each_ : paths_of_all_).push_back(path);
     }
@@ -55,21 +56,24 @@ class LabelFiles {
   // Errors: as WriteSkeletonFile(), also for an earlier label.
   absl::Status Add(LabelSkeleton&& skeleton) {
     ++labels_;
-    if (!paths_of_all_.empty()) all_.Add(skeleton.label, skeleton.voxels, skeleton.result);
+    if (!paths_of_all_.empty()) {
+      all_.Add(skeleton.label, skeleton.voxels, skeleton.result, context_.stop);
+    }
     if (paths_of_each_.empty()) return absl::OkStatus();
     const auto kept = std::make_shared<const LabelSkeleton>(std::move(skeleton));
     return writers_.Add([this, kept] { return WriteOwnFiles(*kept); });
   }
 
   // Writes the files of all labels. Errors: as above; CANCELLED.
-  absl::StatusOr<std::vector<WrittenFile>> Finish(const std::stop_token& stop) && {
+  absl::StatusOr<std::vector<WrittenFile>> Finish() && {
     BCCSKEL_RETURN_IF_ERROR(writers_.Finish());
     std::vector<WrittenFile> files;
     for (const std::string& path : paths_of_each_) {
       files.push_back({path, std::to_string(labels_) + (labels_ == 1 ? " file" : " files")});
     }
     for (const std::string& path : paths_of_all_) {
-      BCCSKEL_ASSIGN_OR_RETURN(std::string note, exporting::WriteLabeledFile(path, all_, stop));
+      BCCSKEL_ASSIGN_OR_RETURN(std::string note,
+                               exporting::WriteLabeledFile(path, all_, context_.stop));
       files.push_back({path, std::move(note)});
     }
     return files;
@@ -81,6 +85,7 @@ class LabelFiles {
     const exporting::Subject subject = {.result = skeleton.result,
                                         .object = skeleton.result.thin,
                                         .title = title,
+                                        .context = context_,
                                         .root = root_,
                                         .world = world_,
                                         .swc = swc_};
@@ -96,6 +101,7 @@ class LabelFiles {
   const std::optional<RootChoice> root_;
   const exporting::World world_;
   const exporting::CurveSampling swc_;
+  exec::Context context_;  // of the writers: one thread
   exporting::LabeledSkeletons all_;
   uint64_t labels_ = 0;
   FileWriters writers_;  // last: their tasks use the members above
@@ -345,7 +351,7 @@ ExitCode Run(const LabelsArguments& arguments, const std::stop_token& stop) {
   LocalTeam team(arguments.common.threads, stop);
   const absl::StatusOr<CollectedLabels> labels = Load(arguments, team.context());
   if (!labels.ok()) return Fail(labels.status());
-  LabelFiles files(arguments.outputs, arguments.root, WorldOf(labels->info), arguments.swc);
+  LabelFiles files(arguments.outputs, arguments.root, WorldOf(labels->info), arguments.swc, stop);
   std::vector<LabelFigures> figures;
   absl::Status writing, computed;
   {
@@ -362,7 +368,7 @@ ExitCode Run(const LabelsArguments& arguments, const std::stop_token& stop) {
   }
   if (!writing.ok()) return FailWith(ExitCode::kOutput, writing);
   if (!computed.ok()) return FailComputing(arguments, computed);
-  absl::StatusOr<std::vector<WrittenFile>> written = std::move(files).Finish(stop);
+  absl::StatusOr<std::vector<WrittenFile>> written = std::move(files).Finish();
   if (!written.ok()) return FailWith(ExitCode::kOutput, written.status());
   return Print(LabelsSummaryOf({arguments, labels->info, labels->left_out, std::move(figures),
                                 *std::move(written),

@@ -350,7 +350,8 @@ ExitCode FailComputing(const ComputeArguments& arguments, const absl::Status& er
 
 absl::StatusOr<ResultAndObject> LoadResultAndObject(const ResultArguments& arguments,
                                                     const exec::Context& context) {
-  BCCSKEL_ASSIGN_OR_RETURN(view::ResultDocument result, view::ReadResultDocument(arguments.result));
+  BCCSKEL_ASSIGN_OR_RETURN(view::ResultDocument result,
+                           view::ReadResultDocument(arguments.result, context.stop));
   BCCSKEL_ASSIGN_OR_RETURN(Volume object, LoadPrepared(arguments, result, context));
   const absl::Status fits = CheckObjectFits(result, object);
   if (!fits.ok()) return WithPath(fits, arguments.object);

@@ -81,7 +81,7 @@ struct Shown {
 absl::StatusOr<Shown> Load(const RenderArguments& arguments, const exec::Context& context) {
   if (arguments.object.empty()) {
     BCCSKEL_ASSIGN_OR_RETURN(view::ResultDocument result,
-                             view::ReadResultDocument(arguments.result));
+                             view::ReadResultDocument(arguments.result, context.stop));
     return Shown{std::string(FileName(arguments.result)), std::move(result), {}};
   }
   BCCSKEL_ASSIGN_OR_RETURN(ResultAndObject loaded, LoadResultAndObject(arguments, context));

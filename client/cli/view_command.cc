@@ -43,7 +43,8 @@ struct Scene {
 
 absl::StatusOr<Scene> Load(const ResultArguments& source, const exec::Context& context) {
   if (source.object.empty()) {
-    BCCSKEL_ASSIGN_OR_RETURN(view::ResultDocument result, view::ReadResultDocument(source.result));
+    BCCSKEL_ASSIGN_OR_RETURN(view::ResultDocument result,
+                             view::ReadResultDocument(source.result, context.stop));
     return Scene{std::string(FileName(source.result)), std::move(result), {}};
   }
   BCCSKEL_ASSIGN_OR_RETURN(ResultAndObject loaded, LoadResultAndObject(source, context));
@@ -63,7 +64,7 @@ ExitCode Run(const ViewArguments& arguments, const std::stop_token& stop) {
   const absl::StatusOr<Scene> scene = Load(arguments, team.context());
   if (!scene.ok()) return Fail(scene.status());
   const auto& [title, result, peeling] = *scene;
-  const absl::StatusOr<std::string> page = view::PageOf({title, result, peeling});
+  const absl::StatusOr<std::string> page = view::PageOf({title, result, peeling}, team.context());
   if (!page.ok()) return Fail(page.status());
   const absl::Status written = exporting::WriteFileAtomically(arguments.output, *page, stop);
   if (!written.ok()) return FailWith(ExitCode::kOutput, written);

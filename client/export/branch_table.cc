@@ -63,10 +63,10 @@ void AddRow(Text& text, const SkeletonGraph& graph, size_t n, uint32_t component
 }  // namespace
 
 std::string BranchTableText(const SkeletonGraph& graph, const GraphContext& context) {
-  Text text;
+  Text text(context.stop);
   AddHeader(text, context);
-  const GraphComponents components = ComponentsOf(graph);
-  for (size_t n = 0; n < graph.edges.size(); ++n) {
+  const GraphComponents components = ComponentsOf(graph, context.stop);
+  for (size_t n = 0; n < graph.edges.size() && !text.stopped(); ++n) {
     if (!context.labels.of_edges.empty()) text.Add(context.labels.of_edges[n], ',');
     AddRow(text, graph, n, components.of_node[graph.edges[n].source]);
     if (context.order.has_value()) AddOrder(text, context.order->edges[n]);

@@ -324,7 +324,7 @@ absl::StatusOr<std::string> GlbBytes(const SkeletonGraph& graph, const GraphCont
   const TubeMaker maker(center, graph);
   // A curve has about as many samples as points; one more for caps.
   Scene scene(graph.edges.size(), maker.sides() * (graph.points.size() + graph.edges.size()));
-  for (size_t n = 0; n < graph.edges.size(); ++n) {
+  for (size_t n = 0; n < graph.edges.size() && !context.stop.stop_requested(); ++n) {
     const SkeletonEdge& edge = graph.edges[n];
     const std::vector<WorldPoint> smooth = SmoothCurve(graph, edge);
     const std::vector<CurvePoint> curve = SampledCurve(graph, edge, smooth);

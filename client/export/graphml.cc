@@ -155,16 +155,18 @@ void AddEdge(Text& text, const SkeletonGraph& graph, size_t n, const GraphContex
 }  // namespace
 
 std::string GraphMlText(const SkeletonGraph& graph, const GraphContext& context) {
-  Text text;
+  Text text(context.stop);
   text.Add(kHead);
   const bool has_births = graph.HasBirths();
   if (has_births) text.Add(kBirthKeys);
   AddContext(text, context);
-  const GraphComponents components = ComponentsOf(graph);
-  for (size_t n = 0; n < graph.nodes.size(); ++n) {
+  const GraphComponents components = ComponentsOf(graph, context.stop);
+  for (size_t n = 0; n < graph.nodes.size() && !text.stopped(); ++n) {
     AddNode(text, graph, n, components.of_node[n], context);
   }
-  for (size_t n = 0; n < graph.edges.size(); ++n) AddEdge(text, graph, n, context, has_births);
+  for (size_t n = 0; n < graph.edges.size() && !text.stopped(); ++n) {
+    AddEdge(text, graph, n, context, has_births);
+  }
   text.Add("</graph>\n</graphml>\n");
   return std::move(text).Take();
 }

@@ -23,6 +23,7 @@ void AddList(Text& text, std::string_view separator, const Items& items, WriteIt
   text.Add('[');
   std::string_view before;
   for (const auto& item : items) {
+    if (text.stopped()) return;
     text.Add(before);
     write_item(item);
     before = separator;
@@ -180,11 +181,11 @@ void AddTimings(Text& text, const StageTimings& timings) {
 }  // namespace
 
 std::string JsonText(const SkeletonizeResult& result, const std::optional<TreeOrder>& order,
-                     const World& world, JsonParts parts) {
+                     const World& world, JsonParts parts, const std::stop_token& stop) {
   const SkeletonGraph& graph = result.graph;
-  Text text;
+  Text text(stop);
   text.Add("{\n\"nodes\":");
-  const GraphComponents components = ComponentsOf(graph);
+  const GraphComponents components = ComponentsOf(graph, stop);
   AddList(text, ",\n", graph.nodes, [&](const SkeletonNode& n) {
     AddNode(text, graph, n, components.of_node[static_cast<size_t>(&n - graph.nodes.data())],
             order);

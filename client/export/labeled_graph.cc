@@ -7,7 +7,9 @@
 #include "core/exec/status_macros.h"
 
 namespace bccskel::exporting {
-void LabeledSkeletons::Add(uint64_t label, uint64_t voxels, const SkeletonizeResult& result) {
+
+void LabeledSkeletons::Add(uint64_t label, uint64_t voxels, const SkeletonizeResult& result,
+                           const std::stop_token& stop) {
   const SkeletonGraph& graph = result.graph;
   if (facts_.empty()) {
     facts_ = MethodFactsOf(result, world_);
@@ -31,11 +33,12 @@ void LabeledSkeletons::Add(uint64_t label, uint64_t voxels, const SkeletonizeRes
   labels_.of_edges.resize(graph_.edges.size(), label);
   json_ += json_.empty() ? "\n" : ",\n";
   json_ += "{\"label\":" + std::to_string(label) + ",\"voxels\":" + std::to_string(voxels) +
-           ",\"skeleton\":" + JsonText(result, OrderOf(graph, root_), world_) + "}";
+           ",\"skeleton\":" +
+           JsonText(result, OrderOf(graph, root_, stop), world_, JsonParts::kAll, stop) + "}";
 }
 
-GraphContext LabeledSkeletons::Context() const {
-  return {.labels = labels_, .facts = facts_, .order = OrderOf(graph_, root_)};
+GraphContext LabeledSkeletons::Context(const std::stop_token& stop) const {
+  return {.labels = labels_, .facts = facts_, .order = OrderOf(graph_, root_, stop), .stop = stop};
 }
 
 bool HoldsManyLabels(SkeletonFormat format) {
@@ -58,8 +61,7 @@ absl::StatusOr<std::string> WriteLabeledFile(const std::string& path,
   }
   return WriteGraphFile(
       path,
-      {.graph = skeletons.graph(), .context = skeletons.Context(), .world = skeletons.world()},
-      stop);
+      {.graph = skeletons.graph(), .context = skeletons.Context(stop), .world = skeletons.world()});
 }
 
 }  // namespace bccskel::exporting

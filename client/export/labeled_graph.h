@@ -21,13 +21,15 @@ class LabeledSkeletons {
   explicit LabeledSkeletons(const std::optional<RootChoice>& root = std::nullopt, World world = {})
       : root_(root), world_(std::move(world)) {}
 
+  // After a stop request it returns early, with a part of the label's skeleton.
   // Needs: all have one placement.
-  void Add(uint64_t label, uint64_t voxels, const SkeletonizeResult& result);
+  void Add(uint64_t label, uint64_t voxels, const SkeletonizeResult& result,
+           const std::stop_token& stop = {});
 
   // All graphs side by side.
   const SkeletonGraph& graph() const { return graph_; }
   // Labels, the method of the first label, and the order of the trees if roots are chosen.
-  GraphContext Context() const;
+  GraphContext Context(const std::stop_token& stop = {}) const;
   // {"labels": [{"label", "voxels", "skeleton"}, ...]}, each skeleton as JsonText() writes it.
   std::string Json() const { return "{\n\"labels\":[" + json_ + "\n]\n}\n"; }
   const World& world() const { return world_; }

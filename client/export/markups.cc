@@ -117,9 +117,9 @@ std::string NoteOn(const World& world) {
 
 Document WriteMarkups(const SkeletonGraph& graph, const GraphContext& context, const World& world) {
   const Frame frame = FrameOf(world);
-  Text text;
+  Text text(context.stop);
   text.Add("{\"@schema\":\"", kSchema, "\",\n\"markups\":[");
-  for (size_t n = 0; n < graph.edges.size(); ++n) {
+  for (size_t n = 0; n < graph.edges.size() && !text.stopped(); ++n) {
     text.Add(n == 0 ? "\n" : ",\n");
     AddCurve(text, graph, n, context, frame);
   }

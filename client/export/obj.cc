@@ -7,14 +7,16 @@
 
 namespace bccskel::exporting {
 
-std::string ObjText(const SkeletonGraph& graph) {
-  const Polylines polylines = PolylinesOf(graph);
-  Text text;
+std::string ObjText(const SkeletonGraph& graph, const std::stop_token& stop) {
+  const Polylines polylines = PolylinesOf(graph, stop);
+  Text text(stop);
   text.Add("# curve skeleton by bccskel\n");
   for (const WorldPoint& p : polylines.places) {
+    if (text.stopped()) break;
     text.Add("v ", p[0], ' ', p[1], ' ', p[2], '\n');
   }
   for (const std::vector<size_t>& line : polylines.lines) {
+    if (text.stopped()) break;
     text.Add('l');
     for (size_t n : line) text.Add(' ', n + 1);
     text.Add('\n');

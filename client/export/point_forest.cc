@@ -9,10 +9,12 @@ namespace {
 
 class Planting {
  public:
-  Planting(const SkeletonGraph& graph, const TreeOrder& order, const CurveSampling& sampling)
+  Planting(const SkeletonGraph& graph, const TreeOrder& order, const CurveSampling& sampling,
+           const std::stop_token& stop)
       : graph_(graph),
         order_(order),
         sampling_(sampling),
+        stop_(stop),
         edges_at_(graph.nodes.size()),
         places_(graph.nodes.size()) {
     for (uint32_t e = 0; e < graph.edges.size(); ++e) {
@@ -49,7 +51,7 @@ class Planting {
                    [&](const Start& start) { return Leaves(start, node); });
     };
     open_at(root);
-    while (!open.empty()) {
+    while (!open.empty() && !stop_.stop_requested()) {
       const Start start = open.back();
       open.pop_back();
       const std::optional<uint32_t> reached = AddBranch(start);
@@ -110,6 +112,7 @@ class Planting {
   const SkeletonGraph& graph_;
   const TreeOrder& order_;
   const CurveSampling sampling_;
+  const std::stop_token& stop_;
   std::vector<std::vector<Start>> edges_at_;  // by node; a self-loop twice
   std::vector<size_t> places_;                // by node: index in the forest
   PointForest forest_;
@@ -118,8 +121,8 @@ class Planting {
 }  // namespace
 
 PointForest PointForestOf(const SkeletonGraph& graph, const TreeOrder& order,
-                          const CurveSampling& sampling) {
-  return Planting(graph, order, sampling).Run();
+                          const CurveSampling& sampling, const std::stop_token& stop) {
+  return Planting(graph, order, sampling, stop).Run();
 }
 
 }  // namespace bccskel::exporting

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <stop_token>
 #include <vector>
 
 #include "client/export/sampled_curve.h"
@@ -29,9 +30,10 @@ struct PointForest {
 };
 
 // Cuts an edge that closes a loop at the step farthest from its root, so that no point is lost.
+// After a stop request it returns early, with a part of the points.
 // Needs: `order` belongs to this graph; the step is not negative.
 PointForest PointForestOf(const SkeletonGraph& graph, const TreeOrder& order,
-                          const CurveSampling& sampling = {});
+                          const CurveSampling& sampling = {}, const std::stop_token& stop = {});
 
 }  // namespace bccskel::exporting
 

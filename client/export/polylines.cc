@@ -24,10 +24,11 @@ std::vector<size_t> LoneNodes(const SkeletonGraph& graph) {
 }
 
 // In the order of Polylines::points.
-std::vector<WorldPoint> SmoothPlaces(const SkeletonGraph& graph) {
+std::vector<WorldPoint> SmoothPlaces(const SkeletonGraph& graph, const std::stop_token& stop) {
   std::vector<WorldPoint> places;
   for (const SkeletonNode& node : graph.nodes) places.push_back(graph.PositionOf(node.at));
   for (const SkeletonEdge& edge : graph.edges) {
+    if (stop.stop_requested()) break;
     const std::vector<WorldPoint> curve = SmoothCurve(graph, edge);
     if (curve.empty()) continue;
     // The only kind of node that a smooth curve moves.
@@ -40,12 +41,13 @@ std::vector<WorldPoint> SmoothPlaces(const SkeletonGraph& graph) {
 
 }  // namespace
 
-Polylines PolylinesOf(const SkeletonGraph& graph) {
+Polylines PolylinesOf(const SkeletonGraph& graph, const std::stop_token& stop) {
   Polylines result;
-  result.places = SmoothPlaces(graph);
+  result.places = SmoothPlaces(graph, stop);
   result.lone_points = LoneNodes(graph);
   for (const SkeletonNode& node : graph.nodes) result.points.push_back(node.at);
   for (const SkeletonEdge& edge : graph.edges) {
+    if (stop.stop_requested()) break;
     std::vector<size_t> line = {edge.source};
     for (const SkeletonPoint& point : InnerPoints(graph, edge)) {
       line.push_back(result.points.size());

@@ -2,6 +2,7 @@
 #define BCCSKEL_CLIENT_EXPORT_POLYLINES_H_
 
 #include <cstddef>
+#include <stop_token>
 #include <vector>
 
 #include "core/skeleton/skeleton_graph.h"
@@ -20,7 +21,8 @@ struct Polylines {
   size_t first_of_sheets = 0;  // index into `points`
 };
 
-Polylines PolylinesOf(const SkeletonGraph& graph);
+// After a stop request it returns early, with a part of them.
+Polylines PolylinesOf(const SkeletonGraph& graph, const std::stop_token& stop = {});
 
 }  // namespace bccskel::exporting
 

@@ -88,8 +88,9 @@ absl::StatusOr<Document> WithoutNote(absl::StatusOr<std::string> bytes) {
 }
 
 std::string JsonText(const Subject& subject, JsonParts parts = JsonParts::kAll) {
-  return exporting::JsonText(subject.result, OrderOf(subject.result.graph, subject.root),
-                             subject.world, parts);
+  const std::stop_token& stop = subject.context.stop;
+  return exporting::JsonText(subject.result, OrderOf(subject.result.graph, subject.root, stop),
+                             subject.world, parts, stop);
 }
 
 absl::StatusOr<view::Peeling> PeelingOf(const Subject& subject) {
@@ -108,7 +109,7 @@ absl::StatusOr<std::string> PageText(const Subject& subject) {
   BCCSKEL_ASSIGN_OR_RETURN(view::ResultDocument result, DocumentOf(subject.result, subject.world));
   result.text = std::make_shared<const std::string>(JsonText(subject, JsonParts::kForPage));
   BCCSKEL_ASSIGN_OR_RETURN(const view::Peeling peeling, PeelingOf(subject));
-  return view::PageOf({subject.title, result, peeling});
+  return view::PageOf({subject.title, result, peeling}, subject.context);
 }
 
 // nullopt for a format that needs more than a graph.
@@ -117,13 +118,13 @@ std::optional<absl::StatusOr<Document>> ComposeGraph(SkeletonFormat format,
   const auto& [graph, context, world, sampling] = subject;
   switch (format) {
     case SkeletonFormat::kSwc:
-      return WriteSwc(graph, context.order, {sampling, world});
+      return WriteSwc(graph, context.order, {sampling, world, context.stop});
     case SkeletonFormat::kVtp:
       return WithoutNote(VtpText(graph, context));
     case SkeletonFormat::kGraphMl:
       return WithoutNote(GraphMlText(graph, context));
     case SkeletonFormat::kObj:
-      return WithoutNote(ObjText(graph));
+      return WithoutNote(ObjText(graph, context.stop));
     case SkeletonFormat::kCsv:
       return WithoutNote(BranchTableText(graph, context));
     case SkeletonFormat::kMarkups:
@@ -195,7 +196,7 @@ absl::Status CheckOutput(const std::string& path) {
 absl::StatusOr<std::string> WriteSkeletonFile(const std::string& path, const Subject& subject) {
   BCCSKEL_ASSIGN_OR_RETURN(const SkeletonFormat format, SkeletonFormatOf(path));
   if (format == SkeletonFormat::kVolume) {
-    BCCSKEL_RETURN_IF_ERROR(WriteVolumeFile(path, subject.result.thin));
+    BCCSKEL_RETURN_IF_ERROR(WriteVolumeFile(path, subject.result.thin, subject.context));
     return std::string();
   }
   const SkeletonGraph& graph = subject.result.graph;
@@ -204,18 +205,17 @@ absl::StatusOr<std::string> WriteSkeletonFile(const std::string& path, const Sub
     BCCSKEL_RETURN_IF_ERROR(CheckFinite(graph));
     return WriteDocument(path, WithoutNote(Compose(path, format, subject)), stop);
   }
-  return WriteGraphFile(path,
-                        {.graph = graph,
-                         .context = {.labels = {},
-                                     .facts = MethodFactsOf(subject.result, subject.world),
-                                     .order = OrderOf(graph, subject.root)},
-                         .world = subject.world,
-                         .swc = subject.swc},
-                        stop);
+  return WriteGraphFile(path, {.graph = graph,
+                               .context = {.labels = {},
+                                           .facts = MethodFactsOf(subject.result, subject.world),
+                                           .order = OrderOf(graph, subject.root, stop),
+                                           .stop = stop},
+                               .world = subject.world,
+                               .swc = subject.swc});
 }
 
-absl::StatusOr<std::string> WriteGraphFile(const std::string& path, const GraphSubject& subject,
-                                           const std::stop_token& stop) {
+absl::StatusOr<std::string> WriteGraphFile(const std::string& path, const GraphSubject& subject) {
+  const std::stop_token& stop = subject.context.stop;
   BCCSKEL_ASSIGN_OR_RETURN(const SkeletonFormat format, SkeletonFormatOf(path));
   BCCSKEL_RETURN_IF_ERROR(CheckFinite(subject.graph));
   if (format == SkeletonFormat::kPrecomputed) {

@@ -1,7 +1,6 @@
 #ifndef BCCSKEL_CLIENT_EXPORT_SKELETON_FILE_H_
 #define BCCSKEL_CLIENT_EXPORT_SKELETON_FILE_H_
 
-#include <stop_token>
 #include <string>
 
 #include "absl/status/statusor.h"
@@ -61,10 +60,9 @@ absl::Status CheckOutput(const std::string& path);
 //         object those of the subject's context.
 absl::StatusOr<std::string> WriteSkeletonFile(const std::string& path, const Subject& subject);
 
-// The same for a graph alone.
+// The same for a graph alone; ended by the stop token of its context.
 // Errors: as above; INVALID_ARGUMENT for formats that need the object or the whole result.
-absl::StatusOr<std::string> WriteGraphFile(const std::string& path, const GraphSubject& subject,
-                                           const std::stop_token& stop);
+absl::StatusOr<std::string> WriteGraphFile(const std::string& path, const GraphSubject& subject);
 
 }  // namespace bccskel::exporting
 

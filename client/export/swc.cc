@@ -116,14 +116,16 @@ void AddRow(Text& text, size_t row, SwcType type, const PointForest::Point& poin
 Document WriteSwc(const SkeletonGraph& graph, const std::optional<TreeOrder>& order,
                   const SwcOptions& options) {
   const PointForest forest = PointForestOf(
-      graph, order.has_value() ? *order : OrderTrees(graph, {RootChoice::Rule::kDeepestNode}),
-      options.sampling);
+      graph,
+      order.has_value() ? *order
+                        : OrderTrees(graph, {RootChoice::Rule::kDeepestNode}, options.stop),
+      options.sampling, options.stop);
   std::string note = NoteOf(graph, forest);
-  Text text;
+  Text text(options.stop);
   const Roots roots = RootsOf(order);
   AddHeader(text, forest, options, roots, note);
   const std::optional<int> decimals = DecimalsFor(graph.placement);
-  for (size_t n = 0; n < forest.points.size(); ++n) {
+  for (size_t n = 0; n < forest.points.size() && !text.stopped(); ++n) {
     const PointForest::Point& point = forest.points[n];
     AddRow(text, n, TypeOf(graph, point, roots), point, decimals);
   }

@@ -2,6 +2,7 @@
 #define BCCSKEL_CLIENT_EXPORT_SWC_H_
 
 #include <optional>
+#include <stop_token>
 
 #include "client/export/point_forest.h"
 #include "client/export/text.h"
@@ -14,6 +15,7 @@ namespace bccskel::exporting {
 struct SwcOptions {
   CurveSampling sampling = {};
   World world = {};
+  std::stop_token stop = {};  // ends early; the text is then incomplete
 };
 
 // SWC: `id type x y z radius parent`, one tree per component (see PointForest), from the roots of

@@ -7,6 +7,7 @@
 #include <concepts>
 #include <cstddef>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -17,6 +18,11 @@ namespace bccskel::exporting {
 // whatever the locale, so equal skeletons give equal bytes. Values that are not there are "null".
 class Text {
  public:
+  // Once `stop` is requested, loops over large data end early: the text is then incomplete and must
+  // not be used.
+  explicit Text(std::stop_token stop = {}) : stop_(std::move(stop)) {}
+  bool stopped() const { return stop_.stop_requested(); }
+
   template <typename... Parts>
   Text& Add(const Parts&... parts) {
     (Append(parts), ...);
@@ -93,6 +99,7 @@ class Text {
     return to;
   }
 
+  std::stop_token stop_;
   std::string text_;  // larger than its used part
   size_t used_ = 0;
 };

@@ -17,6 +17,7 @@ namespace {
 // One <DataArray> with one value per line.
 template <typename WriteValues>
 void AddArray(Text& text, std::string_view type, std::string_view name, WriteValues write_values) {
+  if (text.stopped()) return;
   text.Add("<DataArray type=\"", type, "\" Name=\"", name, "\" format=\"ascii\">\n");
   write_values();
   text.Add("</DataArray>\n");
@@ -25,7 +26,10 @@ void AddArray(Text& text, std::string_view type, std::string_view name, WriteVal
 void AddPlaces(Text& text, std::string_view name, const std::vector<WorldPoint>& places) {
   text.Add("<DataArray type=\"Float64\" Name=\"", name, "\" NumberOfComponents=\"3\" ",
            "format=\"ascii\">\n");
-  for (const WorldPoint& p : places) text.Add(p[0], ' ', p[1], ' ', p[2], '\n');
+  for (const WorldPoint& p : places) {
+    if (text.stopped()) return;
+    text.Add(p[0], ' ', p[1], ' ', p[2], '\n');
+  }
   text.Add("</DataArray>\n");
 }
 
@@ -129,7 +133,10 @@ void AddCellData(Text& text, const SkeletonGraph& graph, const Polylines& polyli
     for (size_t n = 0; n < graph.edges.size(); ++n) text.Add(n, '\n');
   });
   std::vector<EdgeFigures> figures;
-  for (const SkeletonEdge& edge : graph.edges) figures.push_back(FiguresOf(graph, edge));
+  for (const SkeletonEdge& edge : graph.edges) {
+    if (text.stopped()) return;
+    figures.push_back(FiguresOf(graph, edge));
+  }
   const auto add = [&](std::string_view name, auto figure) {
     AddArray(text, "Float64", name, [&] {
       for (size_t n = 0; n < polylines.lone_points.size(); ++n) text.Add("0\n");
@@ -153,10 +160,10 @@ void AddCellData(Text& text, const SkeletonGraph& graph, const Polylines& polyli
 }  // namespace
 
 std::string VtpText(const SkeletonGraph& graph, const GraphContext& context) {
-  const Polylines polylines = PolylinesOf(graph);
+  const Polylines polylines = PolylinesOf(graph, context.stop);
   std::vector<std::vector<size_t>> vertices;
   for (size_t n : polylines.lone_points) vertices.push_back({n});
-  Text text;
+  Text text(context.stop);
   text.Add("<?xml version=\"1.0\"?>\n<!-- curve skeleton by bccskel -->\n",
            "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" ",
            "header_type=\"UInt64\">\n<PolyData>\n");

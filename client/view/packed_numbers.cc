@@ -2,6 +2,9 @@
 
 #include <zlib.h>
 
+#include <algorithm>
+#include <cstddef>
+
 #include "absl/strings/escaping.h"
 #include "core/exec/status_macros.h"
 
@@ -27,18 +30,32 @@ std::string DifferencesOf(std::span<const uint32_t> numbers) {
 
 }  // namespace
 
-absl::StatusOr<std::string> Deflate(std::string_view bytes) {
-  uLongf size = compressBound(bytes.size());
-  std::string packed(size, '\0');
-  const int code = compress2(reinterpret_cast<Bytef*>(packed.data()), &size,
-                             reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), 6);
-  if (code != Z_OK) return absl::ResourceExhaustedError("not enough memory to compress");
-  packed.resize(size);
+absl::StatusOr<std::string> Deflate(std::string_view bytes, const exec::Context& context) {
+  constexpr size_t kMostAtOnce = size_t{1} << 19;  // about 20 ms
+  z_stream stream = {};
+  if (deflateInit(&stream, 6) != Z_OK) {
+    return absl::ResourceExhaustedError("not enough memory to compress");
+  }
+  std::string packed;
+  int code = Z_OK;
+  while (code == Z_OK && !context.ShouldStop()) {
+    const size_t count = std::min(kMostAtOnce, bytes.size()), used = packed.size();
+    packed.resize(used + kMostAtOnce);
+    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
+    stream.avail_in = static_cast<uInt>(count);
+    stream.next_out = reinterpret_cast<Bytef*>(packed.data() + used);
+    stream.avail_out = static_cast<uInt>(kMostAtOnce);
+    code = deflate(&stream, count == bytes.size() ? Z_FINISH : Z_NO_FLUSH);
+    bytes.remove_prefix(count - stream.avail_in);
+    packed.resize(packed.size() - stream.avail_out);
+  }
+  deflateEnd(&stream);
+  BCCSKEL_RETURN_IF_ERROR(context.StopStatus());
   return packed;
 }
 
-absl::StatusOr<std::string> PackText(std::string_view text) {
-  BCCSKEL_ASSIGN_OR_RETURN(const std::string packed, Deflate(text));
+absl::StatusOr<std::string> PackText(std::string_view text, const exec::Context& context) {
+  BCCSKEL_ASSIGN_OR_RETURN(const std::string packed, Deflate(text, context));
   return absl::Base64Escape(packed);
 }
 

@@ -171,8 +171,8 @@ OrderedJson PruningJson(const PruningSteps& pruning) {
 }
 
 // The part of the document that the page shows: its text, because it is large and mostly unchanged.
-std::string ShownOf(const ResultDocument& document) {
-  const std::string steps = PruningJson(PruningStepsOf(document)).dump();
+std::string ShownOf(const ResultDocument& document, const exec::Context& context) {
+  const std::string steps = PruningJson(PruningStepsOf(document, context)).dump();
   const std::string_view text = *document.text;
   const size_t begin = text.find('{') + 1;
   std::string shown;
@@ -206,9 +206,10 @@ void Replace(std::string& page, std::string_view mark, std::string_view by) {
 
 }  // namespace
 
-absl::StatusOr<std::string> PageOf(const PageContent& content) {
+absl::StatusOr<std::string> PageOf(const PageContent& content, const exec::Context& context) {
   BCCSKEL_ASSIGN_OR_RETURN(const OrderedJson data, DataOf(content));
-  BCCSKEL_ASSIGN_OR_RETURN(const std::string result, PackText(ShownOf(content.result)));
+  BCCSKEL_ASSIGN_OR_RETURN(const std::string result,
+                           PackText(ShownOf(content.result, context), context));
   BCCSKEL_ASSIGN_OR_RETURN(const std::string three, PackText(kThree));
   std::string page(kPageFrame);
   // From last to first, so that inserted text is not searched for placeholders.

@@ -6,6 +6,7 @@
 #include "absl/status/statusor.h"
 #include "client/view/display_surface.h"
 #include "client/view/result_document.h"
+#include "core/exec/context.h"
 
 namespace bccskel::view {
 
@@ -20,8 +21,8 @@ struct PageContent {
 // Surfaces are quantized to 16 bits across the object. The page contains the skeleton's document
 // without its timings and, for smooth curves, without their lattice points; sheets are stored as a
 // surface.
-// Errors: RESOURCE_EXHAUSTED.
-absl::StatusOr<std::string> PageOf(const PageContent& content);
+// Errors: RESOURCE_EXHAUSTED; those of the context.
+absl::StatusOr<std::string> PageOf(const PageContent& content, const exec::Context& context = {});
 
 }  // namespace bccskel::view
 

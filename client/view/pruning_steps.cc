@@ -183,15 +183,15 @@ double JunctionReachOf(const ResultGraph& result) {
 
 }  // namespace
 
-PruningSteps PruningStepsOf(const ResultDocument& document) {
+PruningSteps PruningStepsOf(const ResultDocument& document, const exec::Context& context) {
   const bool has_levels = std::ranges::any_of(
       document.edges, [](const auto& edge) { return std::isfinite(edge.pruning_level); });
   if (!has_levels) return {};
-  const absl::StatusOr<ResultGraph> result = ResultGraphOf(document);
+  const absl::StatusOr<ResultGraph> result = ResultGraphOf(document, context.stop);
   if (!result.ok()) return {};
   Collector collector(result->graph);
   const absl::Status done = ForEachPrunedGraph(
-      result->graph, JunctionReachOf(*result), kMostTracedPoints, {},
+      result->graph, JunctionReachOf(*result), kMostTracedPoints, context,
       [&](double level, const SkeletonGraph& graph) { collector.Add(level, graph); });
   return done.ok() ? std::move(collector).Take() : PruningSteps();
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "client/view/result_document.h"
+#include "core/exec/context.h"
 #include "core/skeleton/skeleton_figures.h"
 #include "core/skeleton/skeleton_graph.h"
 
@@ -54,8 +55,9 @@ struct PruningSteps {
   std::vector<PruningStep> steps;
 };
 
-// No steps if no edge has a level, or if the result states no lattice, as in older versions.
-PruningSteps PruningStepsOf(const ResultDocument& document);
+// No steps if no edge has a level, if the result states no lattice, as in older versions, or after
+// a stop request.
+PruningSteps PruningStepsOf(const ResultDocument& document, const exec::Context& context = {});
 
 }  // namespace bccskel::view
 

@@ -75,7 +75,7 @@ struct Order {
 // Reads values from their events. After the first error the result is incomplete.
 class Reader {
  public:
-  explicit Reader(ResultDocument& to) : to_(to) {}
+  Reader(ResultDocument& to, const std::stop_token& stop) : to_(to), stop_(stop) {}
 
   absl::Status Run() && {
     Unused timed, labels;
@@ -112,6 +112,7 @@ class Reader {
       } else {
         Read({&here, "", *item}, to_.edges.emplace_back());
       }
+      if (stop_.stop_requested()) status_.Update(absl::CancelledError("interrupted"));
       return status_.ok();
     };
     BCCSKEL_RETURN_IF_ERROR(ReadJson(*to_.text, wanted, take));
@@ -360,6 +361,7 @@ class Reader {
   }
 
   ResultDocument& to_;
+  const std::stop_token& stop_;
   const JsonValue* value_ = nullptr;
   const JsonEvent* now_ = nullptr;
   absl::Status status_;
@@ -367,18 +369,19 @@ class Reader {
 
 }  // namespace
 
-absl::StatusOr<ResultDocument> ParseResultDocument(std::string text) {
+absl::StatusOr<ResultDocument> ParseResultDocument(std::string text, const std::stop_token& stop) {
   ResultDocument document;
   document.text = std::make_shared<const std::string>(std::move(text));
-  BCCSKEL_RETURN_IF_ERROR(Reader(document).Run());
+  BCCSKEL_RETURN_IF_ERROR(Reader(document, stop).Run());
   BCCSKEL_RETURN_IF_ERROR(CheckDocument(document));
   return document;
 }
 
-absl::StatusOr<ResultDocument> ReadResultDocument(const std::string& path) {
+absl::StatusOr<ResultDocument> ReadResultDocument(const std::string& path,
+                                                  const std::stop_token& stop) {
   constexpr uint64_t kMostBytes = uint64_t{1} << 31;
   BCCSKEL_ASSIGN_OR_RETURN(std::string text, ReadFileBytes(path, kMostBytes));
-  absl::StatusOr<ResultDocument> document = ParseResultDocument(std::move(text));
+  absl::StatusOr<ResultDocument> document = ParseResultDocument(std::move(text), stop);
   if (document.ok()) return document;
   return absl::Status(document.status().code(),
                       absl::StrCat(path, ": ", document.status().message()));

@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -71,12 +72,15 @@ struct ResultDocument : ResultFacts {
 };
 
 // Errors: INVALID_ARGUMENT with the position of the first violation of the schema. Unknown members
-//         are ignored, and members that later versions of the schema added may be missing.
-absl::StatusOr<ResultDocument> ParseResultDocument(std::string text);
+//         are ignored, and members that later versions of the schema added may be missing;
+//         CANCELLED after a stop request.
+absl::StatusOr<ResultDocument> ParseResultDocument(std::string text,
+                                                   const std::stop_token& stop = {});
 
 // Errors: those of ParseResultDocument() and of ReadFileBytes(), with the path; RESOURCE_EXHAUSTED
 //         for a file above 2 GiB.
-absl::StatusOr<ResultDocument> ReadResultDocument(const std::string& path);
+absl::StatusOr<ResultDocument> ReadResultDocument(const std::string& path,
+                                                  const std::stop_token& stop = {});
 
 }  // namespace bccskel::view
 

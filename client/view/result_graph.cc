@@ -67,8 +67,8 @@ class Lattice {
 
 class GraphReader {
  public:
-  explicit GraphReader(const ResultDocument& document)
-      : document_(document), lattice_(*document.placement) {}
+  GraphReader(const ResultDocument& document, const std::stop_token& stop)
+      : document_(document), stop_(stop), lattice_(*document.placement) {}
 
   absl::StatusOr<SkeletonGraph> Run() && {
     graph_.placement = *document_.placement;
@@ -93,6 +93,7 @@ class GraphReader {
   }
 
   absl::Status AddEdge(const ResultDocument::Edge& from) {
+    if (stop_.stop_requested()) return absl::CancelledError("interrupted");
     const SkeletonEdge edge = {.source = static_cast<uint32_t>(from.source),
                                .target = static_cast<uint32_t>(from.target),
                                .first_point = graph_.points.size(),
@@ -116,6 +117,7 @@ class GraphReader {
   }
 
   const ResultDocument& document_;
+  const std::stop_token& stop_;
   const Lattice lattice_;
   SkeletonGraph graph_;
 };
@@ -131,18 +133,19 @@ absl::Status ReadRoots(const ResultDocument& document, ResultGraph& result) {
 
 }  // namespace
 
-absl::StatusOr<ResultGraph> ResultGraphOf(const ResultDocument& document) {
+absl::StatusOr<ResultGraph> ResultGraphOf(const ResultDocument& document,
+                                          const std::stop_token& stop) {
   if (!document.placement.has_value()) return NoResult("placement", "there");
   ResultGraph result;
   static_cast<ResultFacts&>(result) = document;
-  BCCSKEL_ASSIGN_OR_RETURN(result.graph, GraphReader(document).Run());
+  BCCSKEL_ASSIGN_OR_RETURN(result.graph, GraphReader(document, stop).Run());
   BCCSKEL_RETURN_IF_ERROR(ReadRoots(document, result));
   return result;
 }
 
-absl::StatusOr<ResultGraph> ReadResultGraph(const std::string& path) {
-  BCCSKEL_ASSIGN_OR_RETURN(const ResultDocument document, ReadResultDocument(path));
-  absl::StatusOr<ResultGraph> result = ResultGraphOf(document);
+absl::StatusOr<ResultGraph> ReadResultGraph(const std::string& path, const std::stop_token& stop) {
+  BCCSKEL_ASSIGN_OR_RETURN(const ResultDocument document, ReadResultDocument(path, stop));
+  absl::StatusOr<ResultGraph> result = ResultGraphOf(document, stop);
   if (result.ok()) return result;
   return absl::Status(result.status().code(), absl::StrCat(path, ": ", result.status().message()));
 }

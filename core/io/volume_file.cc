@@ -119,7 +119,7 @@ absl::Status ReplaceFile(const std::string& path, const Volume& volume,
   BCCSKEL_ASSIGN_OR_RETURN(const std::unique_ptr<FileReplacement> file,
                            FileReplacement::Begin(path));
   BCCSKEL_RETURN_IF_ERROR(EncodeVolumeTo(volume, encoding, *file, context));
-  return file->Commit();
+  return file->Commit(context.stop);
 }
 
 }  // namespace

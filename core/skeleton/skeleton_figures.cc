@@ -88,7 +88,7 @@ EdgeFigures FiguresOf(const SkeletonGraph& graph, const SkeletonEdge& edge,
   return figures;
 }
 
-GraphComponents ComponentsOf(const SkeletonGraph& graph) {
+GraphComponents ComponentsOf(const SkeletonGraph& graph, const std::stop_token& stop) {
   DisjointSets joined(graph.nodes.size());  // by their first node
   for (const SkeletonEdge& edge : graph.edges) joined.Join(edge.source, edge.target);
   GraphComponents components;
@@ -104,6 +104,7 @@ GraphComponents ComponentsOf(const SkeletonGraph& graph) {
     AddNode(graph, graph.nodes[n], components.figures[components.of_node[n]]);
   }
   for (const SkeletonEdge& edge : graph.edges) {
+    if (stop.stop_requested()) break;
     ComponentFigures& figures = components.figures[components.of_node[edge.source]];
     const EdgeFigures measured = FiguresOf(graph, edge);
     ++figures.edges;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <vector>
 
 #include "core/skeleton/skeleton_graph.h"
@@ -40,7 +41,8 @@ struct GraphComponents {
   std::vector<uint32_t> of_node;          // by node: position in `figures`
   std::vector<ComponentFigures> figures;  // in the order of their first nodes
 };
-GraphComponents ComponentsOf(const SkeletonGraph& graph);
+// After a stop request it returns early: `of_node` has its size, but the rest is incomplete.
+GraphComponents ComponentsOf(const SkeletonGraph& graph, const std::stop_token& stop = {});
 
 // The sum of all components.
 ComponentFigures TotalOf(const GraphComponents& components);

@@ -20,9 +20,13 @@ double SquaredDistance(const WorldPoint& p, const WorldPoint& q) {
 
 class Ordering {
  public:
-  Ordering(const SkeletonGraph& graph, const RootChoice& choice)
-      : graph_(graph), choice_(choice), components_(ComponentsOf(graph)) {
-    for (const SkeletonEdge& edge : graph.edges) figures_.push_back(FiguresOf(graph, edge));
+  Ordering(const SkeletonGraph& graph, const RootChoice& choice, const std::stop_token& stop)
+      : graph_(graph), choice_(choice), stop_(stop), components_(ComponentsOf(graph, stop)) {
+    figures_.reserve(graph.edges.size());
+    for (const SkeletonEdge& edge : graph.edges) {
+      if (stop.stop_requested()) break;
+      figures_.push_back(FiguresOf(graph, edge));
+    }
     edges_at_.resize(graph.nodes.size());
     for (uint32_t e = 0; e < graph.edges.size(); ++e) {
       edges_at_[graph.edges[e].source].push_back(e);
@@ -40,6 +44,7 @@ class Ordering {
   }
 
   TreeOrder Run() && {
+    if (stop_.stop_requested()) return std::move(order_);
     ChooseRoots();
     for (uint32_t root : order_.roots) GrowFrom(root);
     CountGenerations();
@@ -84,7 +89,7 @@ class Ordering {
     using Way = std::tuple<double, uint32_t, uint32_t>;  // length, last edge, node
     std::priority_queue<Way, std::vector<Way>, std::greater<>> open;
     open.emplace(0, kNoRow, root);
-    while (!open.empty()) {
+    while (!open.empty() && !stop_.stop_requested()) {
       const auto [length, edge, node] = open.top();
       open.pop();
       if (reached_[node] != 0) continue;
@@ -140,6 +145,7 @@ class Ordering {
 
   const SkeletonGraph& graph_;
   const RootChoice& choice_;
+  const std::stop_token& stop_;
   const GraphComponents components_;
   std::vector<EdgeFigures> figures_;
   std::vector<std::vector<uint32_t>> edges_at_;  // by node; an edge to itself twice
@@ -191,8 +197,9 @@ uint32_t TreeOrder::HighestStrahler() const {
   return highest;
 }
 
-TreeOrder OrderTrees(const SkeletonGraph& graph, const RootChoice& choice) {
-  return Ordering(graph, choice).Run();
+TreeOrder OrderTrees(const SkeletonGraph& graph, const RootChoice& choice,
+                     const std::stop_token& stop) {
+  return Ordering(graph, choice, stop).Run();
 }
 
 }  // namespace bccskel

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -75,7 +76,9 @@ struct TreeOrder {
 //        out, so every component is a tree. Among paths of equal length, the one with the smaller
 //        edge is taken.
 // Needs: CheckRootChoice() is OK.
-TreeOrder OrderTrees(const SkeletonGraph& graph, const RootChoice& choice);
+// After a stop request it returns early: `nodes` and `edges` have their sizes, but not all values.
+TreeOrder OrderTrees(const SkeletonGraph& graph, const RootChoice& choice,
+                     const std::stop_token& stop = {});
 
 }  // namespace bccskel
 

@@ -125,6 +125,57 @@ class ExitCodesTest(harness.TestCase):
         self.assertEqual(client.returncode, 130, error)
         self.assert_no_output()
 
+    def interrupted_writing(self, pipe, *words):
+        """Interrupts a command while it writes to a pipe; returns its messages."""
+        os.mkfifo(self.path(pipe))
+        client = self.start(*words)
+        with open(self.path(pipe), "rb") as reader:
+            reader.read(1)  # it writes
+            harness.interrupt(client)
+            reader.read()
+        _, error = client.communicate(timeout=300)
+        self.assertEqual(client.returncode, 130, error)
+        os.unlink(self.path(pipe))
+        return error
+
+    def test_130_leaves_the_old_files_and_no_drafts(self):
+        result = self.path("tree.json")
+        self.succeed("skeletonize", self.generate("tree", 500_000), "--local", "-o", result)
+        old = pathlib.Path(self.path("old.graphml"))
+        old.write_text("old")
+        folder = pathlib.Path(self.path("old.precomputed"))
+        self.succeed("convert", result, "-o", folder)
+        before = (folder / "1").read_bytes()
+        files = sorted(os.listdir(self.folder))
+        error = self.interrupted_writing("pipe.csv", "convert", result, "-o", self.path("pipe.csv"),
+                                         "-o", old, "-o", folder, "-o", self.path("new.precomputed"))
+        self.assertIn(": interrupted, so it was not written", error)
+        self.interrupted_writing("pipe.html", "view", result, "-o", self.path("pipe.html"))
+        self.interrupted_writing("pipe.svg", "render", result, "-o", self.path("pipe.svg"))
+        self.assertEqual(sorted(os.listdir(self.folder)), files)
+        self.assertEqual(old.read_text(), "old")
+        self.assertEqual((folder / "1").read_bytes(), before)
+        self.assertEqual(sorted(os.listdir(folder)), ["1", "info"])
+
+    def test_130_leaves_whole_files_of_labels(self):
+        image = self.path("labels.nrrd")
+        sides = 40
+        voxels = bytearray(sides ** 3)
+        for at in range(len(voxels)):
+            x, y = at % sides, at // sides % sides
+            if x % 4 < 2 and y % 4 < 2:
+                voxels[at] = 1 + x // 4 + sides // 4 * (y // 4)
+        pathlib.Path(image).write_bytes(
+            b"NRRD0004\ntype: uint8\ndimension: 3\nsizes: 40 40 40\nencoding: raw\n\n" + voxels)
+        pathlib.Path(self.path("all.vtp")).write_text("old")
+        self.interrupted_writing("label-1.json", "labels", image, "--local", "-o",
+                                 self.path("label-{label}.json"), "-o", self.path("all.vtp"))
+        for name in os.listdir(self.folder):
+            if name.startswith("label-"):
+                self.assertRegex(name, r"^label-[0-9]+\.json$")
+                json.loads(pathlib.Path(self.path(name)).read_text())
+        self.assertEqual(pathlib.Path(self.path("all.vtp")).read_text(), "old")
+
     def test_without_a_place_it_computes_here_and_says_so(self):
         done = harness.bccskel(*self.skeletonize(self.generate("ball")))
         self.assertEqual(done.returncode, 0, done.stderr)

@@ -206,8 +206,8 @@ absl::StatusOr<LabelOutcomes> SkeletonizeOnServer(const client::LabelVolume& ima
   return outcomes;
 }
 
-absl::StatusOr<Outcome> ReadResult(const std::string& path) {
-  BCCSKEL_ASSIGN_OR_RETURN(view::ResultGraph read, view::ReadResultGraph(path));
+absl::StatusOr<Outcome> ReadResult(const std::string& path, const std::stop_token& stop) {
+  BCCSKEL_ASSIGN_OR_RETURN(view::ResultGraph read, view::ReadResultGraph(path, stop));
   Outcome outcome;
   outcome.result.graph = std::move(read.graph);
   outcome.result.certificate = read.certificate;

@@ -50,7 +50,7 @@ struct Outcome {
 };
 
 // A JSON result. Errors: those of ReadResultGraph().
-absl::StatusOr<Outcome> ReadResult(const std::string& path);
+absl::StatusOr<Outcome> ReadResult(const std::string& path, const std::stop_token& stop);
 
 using OnProgress = std::function<void(uint64_t done, uint64_t total)>;
 

@@ -191,8 +191,8 @@ py::tuple ReadImage(const std::string& path, const Options& options) {
 
 // (outcome, world, unit); the texts are empty if the document does not state them.
 py::tuple ReadJson(const std::string& path) {
-  const auto outcome =
-      std::make_shared<Outcome>(RunFor(py::none(), [&](Job&) { return ReadResult(path); }));
+  const auto outcome = std::make_shared<Outcome>(
+      RunFor(py::none(), [&](Job& job) { return ReadResult(path, job.stop()); }));
   const auto known = [](const std::string& text) { return text == "unknown" ? "" : text; };
   return py::make_tuple(outcome, known(outcome->read->world), known(outcome->read->unit));
 }

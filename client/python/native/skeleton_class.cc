@@ -224,14 +224,13 @@ absl::Status CheckHeldByRead(SkeletonFormat format) {
 absl::StatusOr<std::string> SaveRead(const Outcome& outcome, const std::string& path,
                                      const Saying& saying, const std::stop_token& stop) {
   return exporting::WriteGraphFile(
-      path,
-      {.graph = outcome.result.graph,
-       .context = {.labels = {},
-                   .facts = exporting::MethodFactsOf(*outcome.read),
-                   .order = exporting::OrderOf(outcome.result.graph, outcome.root)},
-       .world = saying.world,
-       .swc = saying.swc},
-      stop);
+      path, {.graph = outcome.result.graph,
+             .context = {.labels = {},
+                         .facts = exporting::MethodFactsOf(*outcome.read),
+                         .order = exporting::OrderOf(outcome.result.graph, outcome.root, stop),
+                         .stop = stop},
+             .world = saying.world,
+             .swc = saying.swc});
 }
 
 absl::StatusOr<std::string> SaveIn(const Outcome& outcome, const std::string& path,
@@ -330,7 +329,7 @@ absl::StatusOr<std::string> WriteLabels(const std::string& path, const LabelList
     if (outcome->result.graph.placement != first.result.graph.placement) {
       return absl::InvalidArgumentError("the skeletons belong to images with different placements");
     }
-    all.Add(label, outcome->voxels, outcome->result);
+    all.Add(label, outcome->voxels, outcome->result, stop);
   }
   return exporting::WriteLabeledFile(path, all, stop);
 }

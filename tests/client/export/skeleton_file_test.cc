@@ -6,7 +6,16 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <stop_token>
 
+#include "client/export/branch_table.h"
+#include "client/export/glb.h"
+#include "client/export/graphml.h"
+#include "client/export/json.h"
+#include "client/export/markups.h"
+#include "client/export/obj.h"
+#include "client/export/swc.h"
+#include "client/export/vtp.h"
 #include "core/io/volume_file.h"
 #include "tests/client/export/sample_skeletons.h"
 #include "tests/support/temporary_folder.h"
@@ -88,6 +97,50 @@ TEST_F(SkeletonFileTest, CoordinatesThatOverflowAreRefusedAndNothingIsWritten) {
   const auto note = WriteSkeletonFile(folder_ / "a.json", {sample.result, sample.object, "title"});
   EXPECT_TRUE(absl::IsInvalidArgument(note.status())) << note.status();
   EXPECT_FALSE(fs::exists(folder_ / "a.json"));
+}
+
+TEST_F(SkeletonFileTest, AStopLeavesNoFileAndTheOldOnes) {
+  const Sample sample = SampleOf(Shape::kKnot);
+  const std::string kept = folder_ / "old.precomputed";
+  ASSERT_TRUE(WriteSkeletonFile(kept, {sample.result, sample.object, "old"}).ok());
+  std::ofstream(kept + "/1") << "old";
+  std::stop_source stop;
+  stop.request_stop();
+  Subject subject = {sample.result, sample.object, "title"};
+  subject.context.stop = stop.get_token();
+  for (const char* name :
+       {"a.swc", "a.vtp", "a.graphml", "a.obj", "a.json", "a.csv", "a.mrk.json", "a.glb", "a.exr",
+        "a.bccb", "a.svg", "a.html", "a.precomputed", "old.precomputed"}) {
+    const absl::Status status = WriteSkeletonFile(folder_ / name, subject).status();
+    EXPECT_TRUE(absl::IsCancelled(status)) << name << ": " << status;
+    EXPECT_EQ(folder_.Count(), 1) << name;
+  }
+  EXPECT_EQ(fs::file_size(kept + "/1"), 3u);
+  EXPECT_EQ(std::distance(fs::directory_iterator(kept), {}), 2);
+}
+
+// Composing the text of a large graph takes seconds.
+TEST(ComposingTest, EndsAfterAStop) {
+  const Sample sample = SampleOf(Shape::kTree, 50'000);
+  const SkeletonGraph& graph = sample.result.graph;
+  std::stop_source stop;
+  const auto sizes = [&] {
+    const std::stop_token token = stop.get_token();
+    const GraphContext context = {.labels = {}, .facts = {}, .order = {}, .stop = token};
+    return std::vector<size_t>{
+        WriteSwc(graph, std::nullopt, {.sampling = {}, .world = {}, .stop = token}).text.size(),
+        VtpText(graph, context).size(),
+        GraphMlText(graph, context).size(),
+        ObjText(graph, token).size(),
+        JsonText(sample.result, std::nullopt, {}, JsonParts::kAll, token).size(),
+        BranchTableText(graph, context).size(),
+        WriteMarkups(graph, context, {}).text.size(),
+        GlbBytes(graph, context)->size()};
+  };
+  const std::vector<size_t> whole = sizes();
+  stop.request_stop();
+  const std::vector<size_t> stopped = sizes();
+  for (size_t n = 0; n < whole.size(); ++n) EXPECT_LT(4 * stopped[n], whole[n]) << n;
 }
 
 }  // namespace

@@ -46,5 +46,22 @@ TEST(PackedNumbersTest, NumbersThatGrowSlowlyTakeLittleRoom) {
   EXPECT_LT(PackNumbers(numbers)->size(), 1000u);
 }
 
+TEST(PackedNumbersTest, LongTextsComeBackAndEndAfterAStop) {
+  std::string text;
+  for (uint32_t n = 0; text.size() < 5'000'000; ++n) text += std::to_string(n * 2654435761u);
+  std::string back(text.size(), '\0');
+  uLongf size = back.size();
+  const std::string packed = *Deflate(text);
+  ASSERT_EQ(uncompress(reinterpret_cast<Bytef*>(back.data()), &size,
+                       reinterpret_cast<const Bytef*>(packed.data()), packed.size()),
+            Z_OK);
+  EXPECT_TRUE(back == text);
+  std::stop_source stop;
+  stop.request_stop();
+  exec::Context context;
+  context.stop = stop.get_token();
+  EXPECT_TRUE(absl::IsCancelled(Deflate(text, context).status()));
+}
+
 }  // namespace
 }  // namespace bccskel::view

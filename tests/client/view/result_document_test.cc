@@ -171,5 +171,11 @@ TEST(ResultDocumentTest, ErrorsOfAFileNameIt) {
   EXPECT_EQ(ReadResultDocument(path + ".none").status().code(), absl::StatusCode::kNotFound);
 }
 
+TEST(ResultDocumentTest, AStopEndsReading) {
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_TRUE(absl::IsCancelled(ParseResultDocument(kSmall, stop.get_token()).status()));
+}
+
 }  // namespace
 }  // namespace bccskel::view
