@@ -34,7 +34,10 @@ absl::Status CheckLabelOutput(const std::string& path) {
   BCCSKEL_ASSIGN_OR_RETURN(const SkeletonFormat format, SkeletonFormatOf(path));
   if (ShowsObject(format)) {
     return absl::InvalidArgumentError(
-        path + ": pictures show one object; use skeletonize --label for one label");
+        path +
+        ": pictures show one object; put all labels into a .glb or .vtp, draw one label with "
+        "`bccskel skeletonize --label N`, or write {label}.json and draw each with `bccskel "
+        "render`");
   }
   if (IsForEachLabel(path) || HoldsManyLabels(format)) return absl::OkStatus();
   return absl::InvalidArgumentError(absl::StrCat(path, ": this format holds one label; write ",

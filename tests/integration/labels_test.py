@@ -187,7 +187,8 @@ class LabelsTest(harness.TestCase):
     def test_wrong_wishes_are_told(self):
         for words, code, message in (
                 (("-o", self.path("a.swc")), 2, "{label}"),
-                (("-o", self.path("{label}.svg")), 2, "pictures show one object"),
+                (("-o", self.path("{label}.svg")), 2,
+                 "pictures show one object; put all labels into a .glb or .vtp, draw one label with"),
                 (("-o", self.path("{label}.xyz")), 2, "no output format"),
                 (("--label", "77", "-o", self.path("a.vtp")), 3,
                  "no voxel has the label 77; "),
