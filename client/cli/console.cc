@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "client/cli/arguments.h"
-#include "client/export/picture/caption.h"
+#include "client/cli/progress_bar.h"
 #include "client/export/skeleton_file.h"
 #include "core/exec/status_macros.h"
 #include "proto/wire/error_details.h"
@@ -53,6 +53,7 @@ namespace {
 std::string_view program_name = "bccskel";
 
 void PrintLine(std::string_view kind, std::string_view message) {
+  EndProgressLine();
   std::fprintf(stderr, "%.*s: %.*s: %.*s\n", static_cast<int>(program_name.size()),
                program_name.data(), static_cast<int>(kind.size()), kind.data(),
                static_cast<int>(message.size()), message.data());
@@ -126,78 +127,11 @@ ExitCode FailOnServer(const ServerArguments& server, const absl::Status& error,
 }
 
 ExitCode Print(std::string_view text) {
+  EndProgressLine();
   const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
   if (written && std::fflush(stdout) == 0) return ExitCode::kOk;
   PrintLine("error", "cannot write to standard output");
   return ExitCode::kOutput;
-}
-
-namespace {
-
-constexpr uint64_t kBarWidth = 28;
-// Redraws are no more frequent than the eye can see.
-constexpr std::chrono::milliseconds kRedrawPause(50);
-
-// "[####----] WHAT N/TOTAL  MORE12.3 s"
-std::string BarLine(const char* what, uint64_t done, uint64_t total, const std::string& more,
-                    std::chrono::duration<double> elapsed) {
-  const uint64_t filled = kBarWidth * std::min(done, total) / std::max<uint64_t>(total, 1);
-  std::string seconds(32, '\0');
-  seconds.resize(static_cast<size_t>(
-      std::snprintf(seconds.data(), seconds.size(), "%.1f s", elapsed.count())));
-  return '[' + std::string(filled, '#') + std::string(kBarWidth - filled, '-') + "] " + what + ' ' +
-         std::to_string(done) + '/' + std::to_string(total) + "  " + more + seconds;
-}
-
-}  // namespace
-
-std::string ProgressLine(const exec::ShellProgress& progress,
-                         std::chrono::duration<double> elapsed) {
-  return BarLine("shell", static_cast<uint64_t>(std::max(progress.shell, 0)),
-                 static_cast<uint64_t>(std::max(progress.last_shell, 0)),
-                 exporting::GroupedDigits(progress.removed) + " points removed, " +
-                     exporting::GroupedDigits(progress.remaining) + " left  ",
-                 elapsed);
-}
-
-ProgressBar::Form ProgressBar::FormOf(ProgressStyle style) {
-  const bool terminal = ::isatty(STDERR_FILENO) == 1;
-  if (style == ProgressStyle::kNever) return Form::kNothing;
-  if (terminal) return Form::kBar;
-  return style == ProgressStyle::kAlways ? Form::kLines : Form::kNothing;
-}
-
-ProgressBar::ProgressBar(ProgressStyle style) : form_(FormOf(style)) {}
-
-ProgressBar::~ProgressBar() {
-  if (line_open_) std::fputc('\n', stderr);
-}
-
-std::function<void(const exec::ShellProgress&)> ProgressBar::Callback() {
-  if (form_ == Form::kNothing) return {};
-  return [this](const exec::ShellProgress& progress) {
-    Show(ProgressLine(progress, elapsed()), progress.shell >= progress.last_shell);
-  };
-}
-
-std::function<void(uint64_t, uint64_t)> ProgressBar::LabelsCallback() {
-  if (form_ == Form::kNothing) return {};
-  return [this](uint64_t done, uint64_t total) {
-    Show(BarLine("label", done, total, "", elapsed()), done >= total);
-  };
-}
-
-void ProgressBar::Show(const std::string& line, bool last) {
-  if (form_ == Form::kLines) {
-    std::fprintf(stderr, "%s\n", line.c_str());
-    return;
-  }
-  const Clock::time_point now = Clock::now();
-  if (now - shown_ < kRedrawPause && !last) return;
-  std::fprintf(stderr, "\r%s\033[K", line.c_str());  // clears the rest of a longer line
-  std::fflush(stderr);
-  shown_ = now;
-  line_open_ = true;
 }
 
 namespace {

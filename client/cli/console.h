@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
-#include <functional>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -68,37 +66,6 @@ ExitCode FailOnServer(const ServerArguments& server, const absl::Status& error,
 
 // Prints a command's result. kOutput if standard output cannot be written.
 ExitCode Print(std::string_view text);
-
-// "[######----] shell 6/10  123,456 points removed, 7,890 left  1.2 s", without a line end.
-std::string ProgressLine(const exec::ShellProgress& progress,
-                         std::chrono::duration<double> elapsed);
-
-// Shows the shells of a running job on standard error.
-// Threads: Show() from one thread at a time.
-class ProgressBar {
- public:
-  explicit ProgressBar(ProgressStyle style);
-  ~ProgressBar();  // leaves a clean line
-  ProgressBar(const ProgressBar&) = delete;
-  ProgressBar& operator=(const ProgressBar&) = delete;
-
-  // Callbacks for after each shell, or for the number of finished labels; empty if nothing is to be
-  // shown.
-  std::function<void(const exec::ShellProgress&)> Callback();
-  std::function<void(uint64_t done, uint64_t total)> LabelsCallback();
-
- private:
-  enum class Form { kNothing, kBar, kLines };
-  static Form FormOf(ProgressStyle style);
-  using Clock = std::chrono::steady_clock;
-  void Show(const std::string& line, bool last);
-  Clock::duration elapsed() const { return Clock::now() - start_; }
-
-  Form form_;
-  Clock::time_point start_ = Clock::now();
-  Clock::time_point shown_;
-  bool line_open_ = false;
-};
 
 // Turns Ctrl-C (SIGINT) and SIGTERM into a stop request; the second signal ends the program at
 // once. A thread reads signals, so nothing runs inside a signal handler.

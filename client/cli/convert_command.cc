@@ -8,6 +8,7 @@
 #include "client/cli/common_options.h"
 #include "client/cli/console.h"
 #include "client/cli/load_object.h"
+#include "client/cli/progress_bar.h"
 #include "client/cli/summaries.h"
 #include "client/cli/thinning_options.h"
 #include "client/export/atomic_file.h"
@@ -64,12 +65,14 @@ absl::Status WriteDocument(const std::string& path, const std::string& title,
 }
 
 ExitCode WriteDocuments(const ConvertArguments& arguments, const view::ResultDocument& result,
-                        const std::stop_token& stop, const std::vector<WrittenFile>& files) {
+                        const ProgressBar& bar, const std::stop_token& stop,
+                        const std::vector<WrittenFile>& files) {
   if (std::ranges::none_of(arguments.outputs, HoldsDocument)) return ExitCode::kOk;
   LocalTeam team(arguments.common.threads, stop);
   const std::string title(FileName(arguments.result));
   for (const WrittenFile& file : files) {
     if (!HoldsDocument(file.path)) continue;
+    bar.Begin("writing", file.path);
     const absl::Status written = WriteDocument(file.path, title, result, team.context());
     if (!written.ok()) return FailWith(ExitCode::kOutput, written);
   }
@@ -77,7 +80,8 @@ ExitCode WriteDocuments(const ConvertArguments& arguments, const view::ResultDoc
 }
 
 ExitCode WriteGraphs(const ConvertArguments& arguments, const view::ResultDocument& document,
-                     const std::stop_token& stop, std::vector<WrittenFile>& files) {
+                     const ProgressBar& bar, const std::stop_token& stop,
+                     std::vector<WrittenFile>& files) {
   if (std::ranges::none_of(arguments.outputs, exporting::HoldsGraph)) return ExitCode::kOk;
   const absl::StatusOr<view::ResultGraph> result = view::ResultGraphOf(document, stop);
   if (!result.ok()) return Fail(WithPath(result.status(), arguments.result));
@@ -100,6 +104,7 @@ ExitCode WriteGraphs(const ConvertArguments& arguments, const view::ResultDocume
                                            .swc = arguments.swc};
   for (WrittenFile& file : files) {
     if (!exporting::HoldsGraph(file.path)) continue;
+    bar.Begin("writing", file.path);
     absl::StatusOr<std::string> note = exporting::WriteGraphFile(file.path, subject);
     if (!note.ok()) return FailWith(ExitCode::kOutput, note.status());
     file.note = *std::move(note);
@@ -135,13 +140,15 @@ ExitCode Run(const ConvertArguments& arguments, const std::stop_token& stop) {
                     absl::InvalidArgumentError(
                         "--root orders the other formats; a .json file stays as the result is"));
   }
+  const ProgressBar bar(ProgressStyle::kAuto);
+  bar.Begin("reading", arguments.result);
   const absl::StatusOr<view::ResultDocument> document =
       view::ReadResultDocument(arguments.result, stop);
   if (!document.ok()) return Fail(document.status());
   std::vector<WrittenFile> files;
   for (const std::string& path : arguments.outputs) files.push_back({path, ""});
-  ExitCode code = WriteGraphs(arguments, *document, stop, files);
-  if (code == ExitCode::kOk) code = WriteDocuments(arguments, *document, stop, files);
+  ExitCode code = WriteGraphs(arguments, *document, bar, stop, files);
+  if (code == ExitCode::kOk) code = WriteDocuments(arguments, *document, bar, stop, files);
   if (code != ExitCode::kOk) return code;
   return Print(SummaryOf(arguments, files));
 }

@@ -5,6 +5,7 @@
 #include "absl/time/time.h"
 #include "client/cli/common_options.h"
 #include "client/cli/console.h"
+#include "client/cli/progress_bar.h"
 #include "client/cli/summaries.h"
 #include "client/encoded_volume.h"
 #include "client/export/text.h"
@@ -77,7 +78,7 @@ std::string JobSummary(const CommonArguments& common, const client::DurableJob& 
 absl::Status AwaitJob(DurableClient& client, const std::string& job,
                       const WaitingArguments& waiting, const std::stop_token& stop) {
   ProgressBar bar(waiting.progress);
-  const auto on_shell = bar.Callback();
+  const auto on_shell = bar.Callback("waiting for " + job);
   absl::Status error;
   const auto take = [&](const client::JobEvent& event) {
     if (event.shell.has_value() && on_shell) on_shell(*event.shell);

@@ -21,6 +21,7 @@
 #include "client/cli/file_writers.h"
 #include "client/cli/image_options.h"
 #include "client/cli/load_object.h"
+#include "client/cli/progress_bar.h"
 #include "client/cli/summaries.h"
 #include "client/cli/thinning_options.h"
 #include "client/export/label_paths.h"
@@ -65,13 +66,15 @@ class LabelFiles {
   }
 
   // Writes the files of all labels. Errors: as above; CANCELLED.
-  absl::StatusOr<std::vector<WrittenFile>> Finish() && {
+  absl::StatusOr<std::vector<WrittenFile>> Finish(const ProgressBar& bar) && {
+    bar.Begin("writing the files of the labels");
     BCCSKEL_RETURN_IF_ERROR(writers_.Finish());
     std::vector<WrittenFile> files;
     for (const std::string& path : paths_of_each_) {
       files.push_back({path, std::to_string(labels_) + (labels_ == 1 ? " file" : " files")});
     }
     for (const std::string& path : paths_of_all_) {
+      bar.Begin("writing", path);
       BCCSKEL_ASSIGN_OR_RETURN(std::string note,
                                exporting::WriteLabeledFile(path, all_, context_.stop));
       files.push_back({path, std::move(note)});
@@ -349,26 +352,25 @@ void AddLabels(CLI::App& command, LabelsArguments& arguments) {
 ExitCode Run(const LabelsArguments& arguments, const std::stop_token& stop) {
   const Clock::time_point start = Clock::now();
   LocalTeam team(arguments.common.threads, stop);
+  ProgressBar bar(arguments.progress);
+  bar.Begin("reading", arguments.input);
   const absl::StatusOr<CollectedLabels> labels = Load(arguments, team.context());
   if (!labels.ok()) return Fail(labels.status());
   LabelFiles files(arguments.outputs, arguments.root, WorldOf(labels->info), arguments.swc, stop);
   std::vector<LabelFigures> figures;
   absl::Status writing, computed;
-  {
-    ProgressBar bar(arguments.progress);
-    const auto on_label = bar.LabelsCallback();
-    // Writes each label's files as soon as it is done.
-    const auto deliver = [&](LabelSkeleton&& skeleton) {
-      figures.push_back(FiguresOf(skeleton));
-      writing = files.Add(std::move(skeleton));
-      if (on_label) on_label(figures.size(), labels->objects.objects.size());
-      return writing;
-    };
-    computed = Compute(arguments, labels->objects, deliver, team.context());
-  }
+  const auto on_label = bar.LabelsCallback("skeletonizing the first labels");
+  // Writes each label's files as soon as it is done.
+  const auto deliver = [&](LabelSkeleton&& skeleton) {
+    figures.push_back(FiguresOf(skeleton));
+    writing = files.Add(std::move(skeleton));
+    if (on_label) on_label(figures.size(), labels->objects.objects.size());
+    return writing;
+  };
+  computed = Compute(arguments, labels->objects, deliver, team.context());
   if (!writing.ok()) return FailWith(ExitCode::kOutput, writing);
   if (!computed.ok()) return FailComputing(arguments, computed);
-  absl::StatusOr<std::vector<WrittenFile>> written = std::move(files).Finish();
+  absl::StatusOr<std::vector<WrittenFile>> written = std::move(files).Finish(bar);
   if (!written.ok()) return FailWith(ExitCode::kOutput, written.status());
   return Print(LabelsSummaryOf({arguments, labels->info, labels->left_out, std::move(figures),
                                 *std::move(written),

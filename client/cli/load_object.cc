@@ -349,9 +349,11 @@ ExitCode FailComputing(const ComputeArguments& arguments, const absl::Status& er
 }
 
 absl::StatusOr<ResultAndObject> LoadResultAndObject(const ResultArguments& arguments,
+                                                    const ProgressBar& bar,
                                                     const exec::Context& context) {
   BCCSKEL_ASSIGN_OR_RETURN(view::ResultDocument result,
                            view::ReadResultDocument(arguments.result, context.stop));
+  bar.Begin("reading", arguments.object);
   BCCSKEL_ASSIGN_OR_RETURN(Volume object, LoadPrepared(arguments, result, context));
   const absl::Status fits = CheckObjectFits(result, object);
   if (!fits.ok()) return WithPath(fits, arguments.object);

@@ -9,6 +9,7 @@
 #include "absl/status/statusor.h"
 #include "client/cli/arguments.h"
 #include "client/cli/image_options.h"
+#include "client/cli/progress_bar.h"
 #include "client/export/world.h"
 #include "client/view/result_document.h"
 #include "core/exec/context.h"
@@ -79,12 +80,13 @@ struct ResultAndObject {
 // Reports why and where computing failed. Returns the exit code.
 ExitCode FailComputing(const ComputeArguments& arguments, const absl::Status& error);
 
-// Reads both and reproduces the object that was thinned: fills a mesh on a grid of the result's
-// spacing, unless the arguments give another, and repeats the preparation. Warns if the number of
-// points differs from the result's.
-// Errors: those of ReadResultDocument(), LoadObject(), Prepare() and CheckObjectFits(), with the
+// Reads both, each a phase of `bar`, and reproduces the object that was thinned: fills a mesh on a
+// grid of the result's spacing, unless the arguments give another, and repeats the preparation.
+// Warns if the number of points differs from the result's. Errors: those of ReadResultDocument(),
+// LoadObject(), Prepare() and CheckObjectFits(), with the
 //         path.
 absl::StatusOr<ResultAndObject> LoadResultAndObject(const ResultArguments& arguments,
+                                                    const ProgressBar& bar,
                                                     const exec::Context& context);
 
 }  // namespace bccskel::cli

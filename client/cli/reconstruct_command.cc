@@ -6,6 +6,7 @@
 #include "client/cli/console.h"
 #include "client/cli/image_options.h"
 #include "client/cli/load_object.h"
+#include "client/cli/progress_bar.h"
 #include "client/cli/summaries.h"
 #include "client/export/picture/caption.h"
 #include "client/export/text.h"
@@ -41,13 +42,18 @@ void AddReconstruct(CLI::App& command, ReconstructArguments& arguments) {
 
 ExitCode Run(const ReconstructArguments& arguments, const std::stop_token& stop) {
   LocalTeam team(arguments.common.threads, stop);
-  const absl::StatusOr<ResultAndObject> loaded = LoadResultAndObject(arguments, team.context());
+  const ProgressBar bar(ProgressStyle::kAuto);
+  bar.Begin("reading", arguments.result);
+  const absl::StatusOr<ResultAndObject> loaded =
+      LoadResultAndObject(arguments, bar, team.context());
   if (!loaded.ok()) return Fail(loaded.status());
   const Volume& object = loaded->object;
+  bar.Begin("filling the balls");
   const absl::StatusOr<Volume> balls =
       UnionOfBalls(view::BallsOf(loaded->result, object.placement()), object.extent(),
                    object.placement(), team.context());
   if (!balls.ok()) return Fail(balls.status());
+  bar.Begin("writing", arguments.output);
   const absl::Status written = WriteVolumeFile(arguments.output, *balls, team.context());
   if (!written.ok()) return FailWith(ExitCode::kOutput, written);
   return Print(SummaryOf(arguments, balls->PointCount(), MeasureOverlap(object, *balls)));

@@ -7,6 +7,7 @@
 #include "client/cli/image_options.h"
 #include "client/cli/load_object.h"
 #include "client/cli/option_values.h"
+#include "client/cli/progress_bar.h"
 #include "client/cli/summaries.h"
 #include "client/export/atomic_file.h"
 #include "client/export/picture/caption.h"
@@ -78,13 +79,15 @@ struct Shown {
   view::DisplaySurface surface;
 };
 
-absl::StatusOr<Shown> Load(const RenderArguments& arguments, const exec::Context& context) {
+absl::StatusOr<Shown> Load(const RenderArguments& arguments, const ProgressBar& bar,
+                           const exec::Context& context) {
   if (arguments.object.empty()) {
     BCCSKEL_ASSIGN_OR_RETURN(view::ResultDocument result,
                              view::ReadResultDocument(arguments.result, context.stop));
     return Shown{std::string(FileName(arguments.result)), std::move(result), {}};
   }
-  BCCSKEL_ASSIGN_OR_RETURN(ResultAndObject loaded, LoadResultAndObject(arguments, context));
+  BCCSKEL_ASSIGN_OR_RETURN(ResultAndObject loaded, LoadResultAndObject(arguments, bar, context));
+  bar.Begin("making the surface");
   const size_t most = IsSvg(arguments) ? exporting::kMostSvgTriangles : view::kMostPictureTriangles;
   BCCSKEL_ASSIGN_OR_RETURN(view::DisplaySurface surface,
                            view::MakeDisplaySurface(loaded.object, most, context));
@@ -126,8 +129,11 @@ ExitCode Run(const RenderArguments& arguments, const std::stop_token& stop) {
                                                "has one size and three views"));
   }
   LocalTeam team(arguments.common.threads, stop);
-  const absl::StatusOr<Shown> shown = Load(arguments, team.context());
+  const ProgressBar bar(ProgressStyle::kAuto);
+  bar.Begin("reading", arguments.result);
+  const absl::StatusOr<Shown> shown = Load(arguments, bar, team.context());
   if (!shown.ok()) return Fail(shown.status());
+  bar.Begin("writing", arguments.output);
   const absl::StatusOr<std::string> picture = Draw(arguments, *shown, team.context());
   if (!picture.ok()) return Fail(picture.status());
   const absl::Status written = exporting::WriteFileAtomically(arguments.output, *picture, stop);

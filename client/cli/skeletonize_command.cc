@@ -12,6 +12,7 @@
 #include "client/cli/image_options.h"
 #include "client/cli/job_calls.h"
 #include "client/cli/load_object.h"
+#include "client/cli/progress_bar.h"
 #include "client/cli/summaries.h"
 #include "client/cli/thinning_options.h"
 #include "client/export/atomic_file.h"
@@ -121,7 +122,8 @@ bool Wants(const SkeletonizeArguments& arguments, exporting::SkeletonFormat want
 
 // Listeners of a running job.
 struct Listeners {
-  Listeners(const SkeletonizeArguments& arguments, const Volume& object) : bar(arguments.progress) {
+  Listeners(const SkeletonizeArguments& arguments, const Volume& object, ProgressBar& progress)
+      : bar(progress) {
     // If thinning stops early, the rest is not a skeleton, and the shells do not contain it. Shells
     // of a prepared object do not fit the original.
     const bool whole =
@@ -129,7 +131,7 @@ struct Listeners {
     if (whole && Wants(arguments, exporting::SkeletonFormat::kHtml)) shells.emplace(object);
   }
 
-  ProgressBar bar;
+  ProgressBar& bar;
   std::optional<ShellCollector> shells;  // for a page, which shows the object being peeled
 };
 
@@ -144,7 +146,7 @@ absl::StatusOr<SkeletonizeResult> OnServer(const SkeletonizeArguments& arguments
                             : client::ThinVolume::kOmit;
   options.timeout = arguments.timeout;
   options.stop = stop;
-  options.on_shell = listeners.bar.Callback();
+  options.on_shell = listeners.bar.Callback("waiting for the server");
   if (listeners.shells.has_value()) {
     options.on_shell_points = [&](int32_t shell, std::span<const LatticePoint> points) {
       listeners.shells->Add(shell, points);
@@ -161,7 +163,7 @@ absl::StatusOr<SkeletonizeResult> OnThisMachine(const SkeletonizeArguments& argu
                                                 Volume& object, Listeners& listeners,
                                                 exec::Context context, const SharedWork* work) {
   context.deadline = Clock::now() + arguments.timeout;
-  context.on_shell = listeners.bar.Callback();
+  context.on_shell = listeners.bar.Callback("measuring distances");
   if (work != nullptr) return work->compute(object, arguments.skeletonize, context);
   OnShellPoints on_points;
   if (listeners.shells.has_value()) {
@@ -178,8 +180,9 @@ struct Computed {
 };
 
 absl::StatusOr<Computed> Compute(const SkeletonizeArguments& arguments, Volume& object,
-                                 const exec::Context& context, const SharedWork* work) {
-  Listeners listeners(arguments, object);
+                                 const exec::Context& context, const SharedWork* work,
+                                 ProgressBar& bar) {
+  Listeners listeners(arguments, object, bar);
   const bool local = arguments.place != Place::kServer;
   BCCSKEL_ASSIGN_OR_RETURN(SkeletonizeResult result,
                            local ? OnThisMachine(arguments, object, listeners, context, work)
@@ -214,7 +217,8 @@ exporting::World WorldOfInput(const Object& object, const std::string& input) {
 absl::StatusOr<std::vector<WrittenFile>> WriteOutputs(const SkeletonizeArguments& arguments,
                                                       const Object& object,
                                                       const Computed& computed,
-                                                      const exec::Context& context) {
+                                                      const exec::Context& context,
+                                                      const ProgressBar& bar) {
   const exporting::Subject subject = {computed.result,
                                       object.volume,
                                       std::string(FileName(arguments.input)),
@@ -227,6 +231,7 @@ absl::StatusOr<std::vector<WrittenFile>> WriteOutputs(const SkeletonizeArguments
   std::vector<WrittenFile> files;
   for (const std::string& path : arguments.outputs) {
     BCCSKEL_RETURN_IF_ERROR(context.StopStatus());
+    bar.Begin("writing", path);
     BCCSKEL_ASSIGN_OR_RETURN(std::string note, exporting::WriteSkeletonFile(path, subject));
     files.push_back({path, std::move(note)});
   }
@@ -338,6 +343,8 @@ ExitCode RunWith(const SharedWork* work, const SkeletonizeArguments& given,
                  const std::stop_token& stop) {
   const Clock::time_point start = Clock::now();
   LocalTeam team(given.common.threads, stop);
+  ProgressBar bar(given.progress);
+  bar.Begin("reading", given.input);
   absl::StatusOr<Object> object = LoadOrMake(given, work, team.context());
   if (!object.ok()) return Fail(object.status());
   if (given.place == Place::kHere) {
@@ -347,7 +354,7 @@ ExitCode RunWith(const SharedWork* work, const SkeletonizeArguments& given,
   if (arguments.waiting == Waiting::kDetach) {
     return SubmitDetached(arguments, object->volume, stop);
   }
-  absl::StatusOr<Computed> computed = Compute(arguments, object->volume, team.context(), work);
+  absl::StatusOr<Computed> computed = Compute(arguments, object->volume, team.context(), work, bar);
   if (!computed.ok()) return FailComputing(arguments, computed.status());
   SkeletonizeResult* const result = &computed->result;
   const absl::Status rooted = CheckRoot(arguments, result->graph);
@@ -356,8 +363,9 @@ ExitCode RunWith(const SharedWork* work, const SkeletonizeArguments& given,
   if (!kept.ok()) return Fail(kept);
   for (const std::string& note : NotesOn(*result)) Warn(arguments.input + ": " + note);
   absl::StatusOr<std::vector<WrittenFile>> files =
-      WriteOutputs(arguments, *object, *computed, team.context());
+      WriteOutputs(arguments, *object, *computed, team.context(), bar);
   if (!files.ok()) return FailWriting(arguments, files.status());
+  bar.Begin("writing images");
   const absl::Status shown = WriteImages(arguments, *object, result->graph, team.context(), *files);
   if (!shown.ok()) return FailWith(ExitCode::kOutput, shown);
   const ExitCode printed = PrintSummary({arguments, object->volume, *result, object->mesh,

@@ -5,6 +5,7 @@
 #include "client/cli/console.h"
 #include "client/cli/image_options.h"
 #include "client/cli/load_object.h"
+#include "client/cli/progress_bar.h"
 #include "client/cli/summaries.h"
 #include "client/export/atomic_file.h"
 #include "client/export/picture/caption.h"
@@ -41,13 +42,15 @@ struct Scene {
   view::Peeling peeling;  // without layers if no object is given
 };
 
-absl::StatusOr<Scene> Load(const ResultArguments& source, const exec::Context& context) {
+absl::StatusOr<Scene> Load(const ResultArguments& source, const ProgressBar& bar,
+                           const exec::Context& context) {
   if (source.object.empty()) {
     BCCSKEL_ASSIGN_OR_RETURN(view::ResultDocument result,
                              view::ReadResultDocument(source.result, context.stop));
     return Scene{std::string(FileName(source.result)), std::move(result), {}};
   }
-  BCCSKEL_ASSIGN_OR_RETURN(ResultAndObject loaded, LoadResultAndObject(source, context));
+  BCCSKEL_ASSIGN_OR_RETURN(ResultAndObject loaded, LoadResultAndObject(source, bar, context));
+  bar.Begin("peeling the object for the page");
   BCCSKEL_ASSIGN_OR_RETURN(view::Peeling peeling, view::PeelForDisplay(loaded.object, {}, context));
   return Scene{std::string(FileName(source.object)), std::move(loaded.result), std::move(peeling)};
 }
@@ -61,8 +64,11 @@ void AddView(CLI::App& command, ViewArguments& arguments) {
 
 ExitCode Run(const ViewArguments& arguments, const std::stop_token& stop) {
   LocalTeam team(arguments.common.threads, stop);
-  const absl::StatusOr<Scene> scene = Load(arguments, team.context());
+  const ProgressBar bar(ProgressStyle::kAuto);
+  bar.Begin("reading", arguments.result);
+  const absl::StatusOr<Scene> scene = Load(arguments, bar, team.context());
   if (!scene.ok()) return Fail(scene.status());
+  bar.Begin("writing", arguments.output);
   const auto& [title, result, peeling] = *scene;
   const absl::StatusOr<std::string> page = view::PageOf({title, result, peeling}, team.context());
   if (!page.ok()) return Fail(page.status());

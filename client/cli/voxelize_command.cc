@@ -5,6 +5,7 @@
 #include "client/cli/console.h"
 #include "client/cli/image_options.h"
 #include "client/cli/load_object.h"
+#include "client/cli/progress_bar.h"
 #include "client/cli/summaries.h"
 #include "client/export/picture/caption.h"
 #include "client/export/text.h"
@@ -88,8 +89,11 @@ void AddVoxelize(CLI::App& command, VoxelizeArguments& arguments) {
 
 ExitCode Run(const VoxelizeArguments& arguments, const std::stop_token& stop) {
   LocalTeam team(arguments.common.threads, stop);
+  const ProgressBar bar(ProgressStyle::kAuto);
+  bar.Begin("reading", arguments.input);
   const absl::StatusOr<Voxelized> result = Load(arguments, team.context());
   if (!result.ok()) return Fail(result.status());
+  bar.Begin("writing", arguments.output);
   const absl::Status written = WriteVolumeFile(arguments.output, result->volume, team.context());
   if (!written.ok()) return FailWith(ExitCode::kOutput, written);
   return Print(SummaryOf(arguments, *result));

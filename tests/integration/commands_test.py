@@ -172,12 +172,32 @@ class CommandsTest(harness.TestCase):
                                   "--progress", "never")
         self.assertEqual(silent, "")
 
-    def on_terminal(self, *words):
-        """What a command shows on a terminal that is its standard error."""
+    def test_a_terminal_shows_what_takes_long(self):
+        result, pipe = self.path("a.json"), self.path("pipe.csv")
+        self.succeed("skeletonize", self.generate("tree"), "--local", "-o", result)
+        os.mkfifo(pipe)
+        ours, theirs = self.terminal()
+        with open(ours, "rb", buffering=0) as screen:
+            client = subprocess.Popen([harness.CLIENT, "convert", result, "-o", pipe],
+                                      stderr=theirs, stdout=subprocess.DEVNULL)
+            os.close(theirs)
+            shown = b""
+            while b"writing pipe.csv" not in shown:  # it waits for a reader
+                shown += screen.read(65536)
+            with open(pipe, "rb") as reader:
+                reader.read()
+            self.assertEqual(client.wait(timeout=300), 0)
+
+    def terminal(self):
+        """Our end and the command's end."""
         try:
-            ours, theirs = pty.openpty()
+            return pty.openpty()
         except OSError as error:
             self.skipTest(f"no pseudo-terminals (is /dev/pts mounted?): {error}")
+
+    def on_terminal(self, *words):
+        """What a command shows on a terminal that is its standard error."""
+        ours, theirs = self.terminal()
         with open(ours, "rb", buffering=0) as screen:
             subprocess.run([harness.CLIENT, *words], stderr=theirs, stdout=subprocess.PIPE,
                            timeout=300, check=True)

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "client/cli/load_object.h"
+#include "client/cli/progress_bar.h"
 #include "client/cli/summaries.h"
 
 namespace bccskel::cli {
@@ -126,11 +127,11 @@ TEST(ProgressLineTest, StandsWithoutShells) {
 
 TEST(ProgressBarTest, IsSilentInAPipeUnlessAskedFor) {
   testing::internal::CaptureStderr();  // a file, not a terminal
-  EXPECT_FALSE(ProgressBar(ProgressStyle::kAuto).Callback());
-  EXPECT_FALSE(ProgressBar(ProgressStyle::kNever).Callback());
+  EXPECT_FALSE(ProgressBar(ProgressStyle::kAuto).Callback("a"));
+  EXPECT_FALSE(ProgressBar(ProgressStyle::kNever).Callback("a"));
   ProgressBar lines(ProgressStyle::kAlways);
-  lines.Callback()({.shell = 1, .last_shell = 2});
-  lines.Callback()({.shell = 2, .last_shell = 2});
+  lines.Callback("a")({.shell = 1, .last_shell = 2});
+  lines.Callback("a")({.shell = 2, .last_shell = 2});
   const std::string printed = testing::internal::GetCapturedStderr();
   EXPECT_THAT(printed, HasSubstr("shell 1/2"));
   EXPECT_THAT(printed, HasSubstr("shell 2/2"));
