@@ -49,13 +49,14 @@ absl::StatusOr<FillRule> ChooseFillRule(const MeshReport& mesh, FillRule wanted)
         DescribeDefects(mesh)));
   }
   if (open && wanted == FillRule::kParity) {
-    return absl::InvalidArgumentError(
-        absl::StrFormat("parity needs a closed mesh, this one has %s", DescribeDefects(mesh)));
+    return absl::InvalidArgumentError(absl::StrFormat(
+        "parity needs a closed mesh, this one has %s; repair it or use --fill winding",
+        DescribeDefects(mesh)));
   }
   if (wanted == FillRule::kWinding && mesh.closure == SurfaceClosure::kClosed) {
-    return absl::InvalidArgumentError(
-        absl::StrFormat("winding needs a consistently oriented mesh, this one has %s: use parity",
-                        DescribeDefects(mesh)));
+    return absl::InvalidArgumentError(absl::StrFormat(
+        "winding needs a consistently oriented mesh, this one has %s: use --fill parity",
+        DescribeDefects(mesh)));
   }
   if (wanted != FillRule::kAuto) return wanted;
   return mesh.closure == SurfaceClosure::kOriented ? FillRule::kWinding : FillRule::kParity;

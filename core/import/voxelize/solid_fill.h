@@ -20,6 +20,7 @@ class SolidFill {
   // Needs: kParity or kWinding, allowed for the surface by ChooseFillRule(); `surface` stays.
   SolidFill(const Surface& surface, FillRule rule, uint64_t max_points);
 
+  FillRule rule() const { return rule_; }
   FillRequest RequestOn(const GridFit& fit) const;
   // Errors: as FillRows().
   absl::StatusOr<Volume> Fill(const FillRequest& request, const exec::Context& context) const;

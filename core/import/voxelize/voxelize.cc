@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
 #include "core/import/voxelize/crossings.h"
@@ -120,6 +121,7 @@ class Voxelizer {
     fill_.emplace(surface_, result.fill, options_.max_points);
     BCCSKEL_ASSIGN_OR_RETURN(Sampling sampling, FillAsAsked());
     const uint64_t inside = sampling.volume.PointCount();
+    WarnOfCancelledVolume(sampling.volume);
     if (options_.thin_parts == ThinParts::kKeep) {
       BCCSKEL_ASSIGN_OR_RETURN(sampling.volume, fill_->KeepThinParts(std::move(sampling.volume),
                                                                      sampling.request, context_));
@@ -166,6 +168,20 @@ class Voxelizer {
         "a spacing of %g leaves about %.2g lattice points to the volume of the mesh, too few for "
         "its shape; use a smaller --spacing, or --points",
         spacing, points));
+  }
+
+  // Holes change the signed volume, too, but by far less than parts that turn against each other.
+  void WarnOfCancelledVolume(const Volume& inside) {
+    const double spacing = inside.placement().spacing[0];
+    const double filled =
+        static_cast<double>(inside.PointCount()) * spacing * spacing * spacing / 2;
+    const double enclosed = std::abs(surface_.report.volume);
+    if (surface_.report.closure != SurfaceClosure::kOpen || !(enclosed < filled / 4)) return;
+    warnings_.push_back(
+        absl::StrFormat("parts of the mesh turn against each other: its signed volume is %.3g, but "
+                        "%.3g is filled, and parts that face inward are left out; turn their "
+                        "triangles around, or close the mesh",
+                        enclosed, filled));
   }
 
   // Repairs the topology, or warns about it.
@@ -318,8 +334,13 @@ class Voxelizer {
 
   absl::StatusOr<Sampling> BestOfTries(Sampling best, uint64_t target) {
     if (best.volume.empty()) {
-      return absl::InvalidArgumentError(
-          "nothing enclosed: no lattice point is inside the mesh at any spacing tried");
+      const bool parity = fill_->rule() == FillRule::kParity;
+      return absl::InvalidArgumentError(absl::StrCat(
+          "nothing enclosed: no lattice point is inside the mesh at any spacing tried; ",
+          parity ? "by parity, a part that is there twice vanishes, so remove the copies or use "
+                   "--fill winding"
+                 : "it is far thinner than a cell, so use more --points, or its walls lie on each "
+                   "other, so give them a thickness"));
     }
     warnings_.push_back(
         absl::StrFormat("%d points instead of the %d wanted", best.volume.PointCount(), target));

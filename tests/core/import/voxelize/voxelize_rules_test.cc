@@ -18,11 +18,13 @@ namespace {
 
 using test::WithSpacing;
 using testing::Box;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using testing::Flipped;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using testing::Merged;
+using ::testing::Not;
 using testing::Sphere;
 
 absl::Status Refusal(const TriangleMesh& mesh, FillRule fill) {
@@ -68,7 +70,7 @@ TEST(FillRule, AutoTakesParityWithAWarningWhereOrientationIsInconsistent) {
   EXPECT_THAT(result.warnings, ElementsAre(HasSubstr("not consistently oriented")));
   EXPECT_EQ(result.volume, WithSpacing(Sphere({0, 0, 0}, 1), 0.2).volume);
   EXPECT_EQ(Refusal(mesh, FillRule::kWinding).code(), absl::StatusCode::kInvalidArgument);
-  EXPECT_THAT(Refusal(mesh, FillRule::kWinding).message(), HasSubstr("use parity"));
+  EXPECT_THAT(Refusal(mesh, FillRule::kWinding).message(), HasSubstr("use --fill parity"));
 }
 
 TEST(FillRule, WindingJoinsPartsThatOverlapAndParityLeavesAHole) {
@@ -175,6 +177,27 @@ TEST(FillRule, OpenSurfacesAreRefusedUnlessWindingIsAskedFor) {
                           HasSubstr("the volume has 1 component, 0 loops, 0 cavities; the topology "
                                     "of an open mesh is not known")));
   EXPECT_EQ(result.topology, (BettiNumbers{1, 0, 0}));
+}
+
+// The signed volumes cancel, and the sphere that then faces inward is not filled.
+TEST(FillRule, PartsOfAnOpenMeshThatTurnAgainstEachOtherGetAWarning) {
+  const TriangleMesh open = CutSphere(0.9);
+  const TriangleMesh other = testing::Moved(open, 1, {3, 0, 0});
+  const VoxelizeResult against =
+      WithSpacing(Merged(open, testing::Flipped(other)), 0.1, FillRule::kWinding);
+  EXPECT_EQ(against.topology, (BettiNumbers{1, 0, 0}));
+  EXPECT_THAT(against.warnings, Contains(HasSubstr("parts of the mesh turn against each other")));
+  const VoxelizeResult alike = WithSpacing(Merged(open, other), 0.1, FillRule::kWinding);
+  EXPECT_EQ(alike.topology, (BettiNumbers{2, 0, 0}));
+  EXPECT_THAT(alike.warnings, Not(Contains(HasSubstr("against"))));
+}
+
+TEST(FillRule, CopiesThatVanishByParityAreTold) {
+  const TriangleMesh ball = Sphere({0, 0, 0}, 1);
+  const absl::Status status =
+      Voxelize(Merged(ball, ball), {.points = 2000, .fill = FillRule::kParity}, {}).status();
+  EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_THAT(status.message(), HasSubstr("a part that is there twice vanishes"));
 }
 
 TEST(FillRule, AGapOfATJunctionIsOpenAndAFlatTriangleInItCloses) {
