@@ -21,15 +21,20 @@ constexpr off_t kReserveBytes = off_t{1} << 20;
 
 }  // namespace
 
-absl::StatusOr<FolderLock> FolderLock::Take(const std::string& folder, With with) {
-  BCCSKEL_ASSIGN_OR_RETURN(File file, File::OpenToWrite(folder + "/lock"));
+absl::StatusOr<FolderLock> FolderLock::Take(const std::string& path, With with) {
+  BCCSKEL_ASSIGN_OR_RETURN(File folder, File::OpenToRead(path));
+  BCCSKEL_ASSIGN_OR_RETURN(File file, File::OpenToWrite(path + "/lock"));
   const int kind = with == With::kNobody ? LOCK_EX : LOCK_SH;
+  // Not every file system that locks files also locks folders.
+  bool taken = flock(folder.fd(), kind | LOCK_NB) != 0 && errno == EWOULDBLOCK;
   if (flock(file.fd(), kind | LOCK_NB) != 0 && (kind == LOCK_EX || errno == EWOULDBLOCK)) {
-    return absl::AlreadyExistsError(absl::StrCat("another server owns the data directory ", folder,
-                                                 " (it holds ", file.path(), ")"));
+    taken = true;
+  }
+  if (taken) {
+    return absl::AlreadyExistsError(absl::StrCat("another server owns the data directory ", path));
   }
   BCCSKEL_ASSIGN_OR_RETURN(std::string store_id, file.ReadAt(0, kMostIdBytes));
-  return FolderLock(std::move(file), std::move(store_id));
+  return FolderLock(std::move(folder), std::move(file), std::move(store_id));
 }
 
 absl::Status FolderLock::SetStoreId(const std::string& id) {

@@ -11,13 +11,14 @@
 namespace bccskel::server {
 
 // A lock on a data folder: held by one process, or by several that share it, until they end,
-// however they end. Works on file systems with flock(). Processes that share need the lock only to
-// keep out a sole owner: they do without it where there is no flock().
+// however they end. It locks the file `lock`, which names the folder's job store, and the folder
+// itself, because somebody may remove that file. Works on file systems with flock(). Processes that
+// share need the lock only to keep out a sole owner: they do without it where there is no flock().
 class FolderLock {
  public:
   enum class With { kNobody, kOthers };
   // Errors: ALREADY_EXISTS when another process has the folder, unless both share it.
-  static absl::StatusOr<FolderLock> Take(const std::string& folder, With with = With::kNobody);
+  static absl::StatusOr<FolderLock> Take(const std::string& path, With with = With::kNobody);
 
   // The job store that the folder's files belong to; empty before SetStoreId().
   const std::string& store_id() const { return store_id_; }
@@ -26,9 +27,9 @@ class FolderLock {
   void Touch(std::chrono::system_clock::time_point now);
 
  private:
-  FolderLock(File file, std::string store_id)
-      : file_(std::move(file)), store_id_(std::move(store_id)) {}
-  File file_;
+  FolderLock(File folder, File file, std::string store_id)
+      : folder_(std::move(folder)), file_(std::move(file)), store_id_(std::move(store_id)) {}
+  File folder_, file_;
   std::string store_id_;
 };
 

@@ -260,5 +260,16 @@ TEST(FolderLockTest, LetsOneProcessHaveTheFolder) {
   EXPECT_TRUE(FolderLock::Take(folder.path()).ok());
 }
 
+TEST(FolderLockTest, HoldsTheFolderWhenItsFileIsRemoved) {
+  using With = FolderLock::With;
+  for (const With with : {With::kNobody, With::kOthers}) {
+    const test::TemporaryFolder folder;
+    const auto lock = FolderLock::Take(folder.path(), with);
+    ASSERT_TRUE(RemoveFile(folder / "lock").ok());
+    EXPECT_EQ(FolderLock::Take(folder.path()).status().code(), absl::StatusCode::kAlreadyExists);
+    EXPECT_EQ(FolderLock::Take(folder.path(), With::kOthers).ok(), with == With::kOthers);
+  }
+}
+
 }  // namespace
 }  // namespace bccskel::server
