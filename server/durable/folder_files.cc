@@ -21,10 +21,15 @@ absl::Status UnknownData(const std::string& folder, size_t files) {
 }  // namespace
 
 absl::Status FolderFiles::CheckTables(const std::string& tables, const DurableOptions& options) {
-  const auto facts = FactsOf(tables);
-  if ((facts.ok() && facts->size_bytes > 0) || options.unknown_data == "adopt") {
-    return absl::OkStatus();
+  if (options.unknown_data == "adopt") return absl::OkStatus();
+  if (LacksItsLog(tables)) {
+    return absl::FailedPreconditionError(absl::StrCat(
+        tables, "-wal is missing, which holds the last changes of ", tables,
+        ": the server that made them did not end in good order. Nothing was changed. Restore the "
+        "file, or start once with --unknown-data adopt to continue without those changes"));
   }
+  const auto facts = FactsOf(tables);
+  if (facts.ok() && facts->size_bytes > 0) return absl::OkStatus();
   BCCSKEL_ASSIGN_OR_RETURN(const auto files, BlobStore(options.data_directory).Files());
   return files.empty() ? absl::OkStatus() : UnknownData(options.data_directory, files.size());
 }

@@ -23,7 +23,8 @@ class FolderFiles {
   FolderFiles(const DurableOptions& options, FolderLock lock)
       : options_(options), blobs_(options.data_directory), lock_(std::move(lock)) {}
 
-  // Called before opening a job store in the folder, which would create an empty one.
+  // Called before opening a job store in the folder, which would create missing files.
+  // Errors: FAILED_PRECONDITION if the tables or their log are missing.
   static absl::Status CheckTables(const std::string& tables, const DurableOptions& options);
 
   // For the sole owner of the folder: takes over and sweeps the files that an earlier process left.

@@ -60,6 +60,9 @@ class SqlDatabase {
   // An SQL expression for the number of the table's next row.
   virtual std::string NextNumber(const std::string& table) const = 0;
 
+  // Called once the tables were found to be in order, before the first change and by one thread:
+  // notes in the database itself that it has a log, so that the next process misses a lost one.
+  virtual void BeginUse() {}
   virtual absl::Status Health() const = 0;
   // Erases deleted data from the files, as far as this program controls them.
   virtual absl::Status Forget() = 0;
@@ -68,9 +71,13 @@ class SqlDatabase {
 };
 
 // An SQLite file in WAL mode with full synchronization, created if missing. Health() is DATA_LOSS,
-// and no transaction begins, when the file is no longer at its path. SQL has an additional function
-// checksum(...): CRC-32C of its arguments and their types.
+// and no transaction begins, when the file or its log (the WAL) is no longer at its path. SQL has
+// an additional function checksum(...): CRC-32C of its arguments and their types.
 absl::StatusOr<std::unique_ptr<SqlDatabase>> OpenSqlite(const std::string& path);
+
+// Whether the SQLite file lacks its log: a process that was using it did not end in good order, and
+// the log, with the last changes, is gone.
+bool LacksItsLog(const std::string& path);
 
 // A PostgreSQL database that the servers of a fleet share, given as a URL or a connection string of
 // libpq. One server writes at a time: a transaction begins by taking an advisory lock; PostgreSQL

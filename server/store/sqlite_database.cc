@@ -24,6 +24,13 @@ constexpr char kPragmas[] =
     "PRAGMA foreign_keys = ON;"
     "PRAGMA secure_delete = ON;";
 
+// In the field of the file's header that is free for programs, at this offset, while a log may hold
+// changes.
+#define BCCSKEL_IN_USE "1"
+constexpr uint64_t kUseOffset = 68;
+
+std::string LogOf(const std::string& path) { return path + "-wal"; }
+
 absl::StatusCode CodeOf(int sqlite_code, int system_error) {
   switch (sqlite_code & 0xFF) {
     case SQLITE_FULL:
@@ -75,11 +82,16 @@ class SqliteDatabase final : public SqlDatabase {
                                Checksum, nullptr, nullptr, nullptr);
     BCCSKEL_RETURN_IF_ERROR(database->Execute(kPragmas));
     BCCSKEL_ASSIGN_OR_RETURN(const FileFacts facts, FactsOf(path));
-    database->identity_ = facts.identity;
+    database->files_ = {{path, facts.identity}};
     return database;
   }
   ~SqliteDatabase() override {
     for (const auto& [sql, statement] : statements_) sqlite3_finalize(statement);
+    // SQLite removes the log when it closes the file. Where the note may stay, so must the log.
+    const bool noted_end = in_use_ && Execute("PRAGMA application_id = 0").ok();
+    if (!noted_end && database_ != nullptr) {
+      sqlite3_db_config(database_, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
+    }
     sqlite3_close(database_);
   }
   SqliteDatabase(const SqliteDatabase&) = delete;
@@ -109,11 +121,24 @@ class SqliteDatabase final : public SqlDatabase {
     return absl::StrCat("1 + coalesce((SELECT seq FROM sqlite_sequence WHERE name = '", table,
                         "'), 0)");
   }
+  // Best effort: a full disk prevents it. Forget() brings the note from the log to the file itself.
+  void BeginUse() override {
+    in_use_ = true;
+    Execute("PRAGMA application_id = " BCCSKEL_IN_USE).IgnoreError();
+    Forget().IgnoreError();
+    const absl::StatusOr<FileFacts> log = FactsOf(LogOf(path_));
+    if (log.ok()) files_.emplace_back(LogOf(path_), log->identity);
+  }
   absl::Status Health() const override {
-    const absl::StatusOr<FileFacts> now = FactsOf(path_);
-    if (now.ok() && now->identity == identity_) return absl::OkStatus();
-    return absl::DataLossError(
-        "the file of the tables is gone, or another one has its name: what is written now is lost");
+    for (const auto& [path, identity] : files_) {
+      const absl::StatusOr<FileFacts> now = FactsOf(path);
+      if (now.ok() && now->identity == identity) continue;
+      return absl::DataLossError(
+          "the file of the tables or its log is gone, or another file has its name: what is "
+          "written "
+          "now would be lost");
+    }
+    return absl::OkStatus();
   }
   absl::Status Forget() override { return Execute("PRAGMA wal_checkpoint(TRUNCATE)"); }
   bool shared() const override { return false; }
@@ -185,7 +210,9 @@ class SqliteDatabase final : public SqlDatabase {
   }
 
   std::string path_;
-  std::pair<uint64_t, uint64_t> identity_;  // of the file
+  // The files by path, and their identities.
+  std::vector<std::pair<std::string, std::pair<uint64_t, uint64_t>>> files_;
+  bool in_use_ = false;
   sqlite3* database_ = nullptr;
   std::map<std::string, sqlite3_stmt*> statements_;
 };
@@ -194,6 +221,13 @@ class SqliteDatabase final : public SqlDatabase {
 
 absl::StatusOr<std::unique_ptr<SqlDatabase>> OpenSqlite(const std::string& path) {
   return SqliteDatabase::Open(path);
+}
+
+bool LacksItsLog(const std::string& path) {
+  const absl::StatusOr<File> file = File::OpenToRead(path);
+  if (!file.ok() || FactsOf(LogOf(path)).ok()) return false;
+  const absl::StatusOr<std::string> note = file->ReadAt(kUseOffset, sizeof(uint32_t));
+  return note.ok() && *note == std::string("\0\0\0\1", sizeof(uint32_t));
 }
 
 }  // namespace bccskel::server

@@ -72,8 +72,8 @@ absl::Status PrepareSqlite(SqlDatabase& database) {
 absl::StatusOr<std::unique_ptr<JobStore>> OpenSqliteJobStore(const std::string& path) {
   BCCSKEL_ASSIGN_OR_RETURN(std::unique_ptr<SqlDatabase> database, OpenSqlite(path));
   BCCSKEL_RETURN_IF_ERROR(PrepareSqlite(*database));
-  // Allocates the tables' space before the disk is full; on a disk that is full already this fails.
-  database->Forget().IgnoreError();
+  // Also allocates the tables' space before the disk is full.
+  database->BeginUse();
   return std::make_unique<JobStore>(std::move(database));
 }
 

@@ -170,6 +170,34 @@ TEST_F(DurableFilesTest, DoesNotStartWithoutTheTablesOfItsFiles) {
   }
 }
 
+TEST_F(DurableFilesTest, DoesNotStartAfterACrashWithoutTheLogOfItsTables) {
+  Open();
+  const std::string job = CreateName("clinic", JobOf(Upload("clinic", "volume")));
+  Crash();
+  std::filesystem::rename(Path("jobs.db-wal"), Path("moved"));
+  ExpectRefusal();
+  EXPECT_FALSE(std::filesystem::exists(Path("jobs.db-wal"))) << "the next start must refuse, too";
+  std::filesystem::rename(Path("moved"), Path("jobs.db-wal"));
+  Open();
+  EXPECT_TRUE(GetJob("clinic", job).ok());
+  Crash();
+  std::filesystem::remove(Path("jobs.db-wal"));
+  options_.unknown_data = "adopt";
+  Open();
+  EXPECT_TRUE(GetJob("clinic", job_).ok());
+}
+
+TEST_F(DurableFilesTest, ConfirmsNothingWhileTheLogOfItsTablesIsGone) {
+  Open();
+  const std::string confirmed = CreateName("clinic", JobOf(Upload("clinic", "volume")));
+  std::filesystem::remove(Path("jobs.db-wal"));
+  EXPECT_EQ(durable_jobs_->Health().code(), absl::StatusCode::kDataLoss);
+  EXPECT_EQ(GetJob("clinic", confirmed).status().code(), absl::StatusCode::kDataLoss);
+  Close();  // saves what the removed file holds
+  Open();
+  EXPECT_TRUE(GetJob("clinic", confirmed).ok());
+}
+
 TEST_F(DurableFilesTest, DoesNotStartWithTheTablesOfAnotherFolder) {
   const std::string own = options_.data_directory;
   options_.data_directory = folder_ / "other";

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <string>
 
 #include "server/store/file_io.h"
@@ -49,6 +50,21 @@ TEST(SchemaTest, StatesTheVersionThatItWrites) {
   ASSERT_TRUE(OpenSqliteJobStore(folder / "jobs.db").ok());
   auto database = *OpenSqlite(folder / "jobs.db");
   EXPECT_EQ((*database->Run("PRAGMA user_version", {})).front().Number(), kSqliteSchemaVersion);
+}
+
+TEST(SchemaTest, LeavesTheLogOfACrashedServerToOneThatUsesIt) {
+  const test::TemporaryFolder folder;
+  const auto store = OpenSqliteJobStore(folder / "jobs.db");
+  ASSERT_TRUE(store.ok()) << store.status();
+  const std::string crashed = folder / "crashed.db";
+  for (const std::string log : {"", "-wal"}) {
+    std::filesystem::copy((folder / "jobs.db") + log, crashed + log);
+  }
+  EXPECT_TRUE(OpenSqlite(crashed).ok());  // as by a server that refuses the version
+  EXPECT_FALSE(LacksItsLog(crashed));
+  EXPECT_TRUE(OpenSqliteJobStore(crashed).ok());
+  EXPECT_FALSE(LacksItsLog(crashed)) << "it was closed in good order";
+  EXPECT_FALSE(std::filesystem::exists(crashed + "-wal"));
 }
 
 }  // namespace
