@@ -78,6 +78,10 @@ absl::StatusOr<DurableJobs::Begun> DurableJobs::BeginJob(JobStore& store,
                                                          Claims& claims) {
   const JobRow& job = turn.job;
   const auto volume = store.Find<VolumeRow>(job.tenant, job.volume);
+  if (absl::IsDataLoss(volume.status())) {  // else this job would be the next one forever
+    EnterState({job.number}, JobState::kFailed, volume.status());
+    return Begun::kYes;
+  }
   if (!volume.ok()) {
     WaitAgain(job.number);
     return volume.status();

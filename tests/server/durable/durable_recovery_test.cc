@@ -106,6 +106,25 @@ TEST_F(DurableRecoveryTest, CountsNoCrashWhenTheServerStopsInGoodOrder) {
   EXPECT_EQ(WaitForEnd("clinic", job).state, JobState::kSucceeded);
 }
 
+TEST_F(DurableRecoveryTest, FailsTheJobOfADamagedVolumeAndRunsTheOthers) {
+  runner_->Hold();
+  const std::string volume = Upload("clinic", "one");
+  const std::string damaged = CreateName("clinic", JobOf(volume));
+  const std::string other = CreateName("clinic", JobOf(Upload("clinic", "two")));
+  Close();
+  {
+    auto tables = OpenSqlite(options_.data_directory + "/jobs.db");
+    ASSERT_TRUE(tables.ok()) << tables.status();
+    const auto changed = (*tables)->Run(
+        "UPDATE volumes SET size_bytes = size_bytes + 1 WHERE name = $1", {SqlValue::Text(volume)});
+    ASSERT_TRUE(changed.ok()) << changed.status();
+  }
+  Open();
+  runner_->Release();
+  EXPECT_EQ(WaitForEnd("clinic", damaged).error.code(), absl::StatusCode::kDataLoss);
+  EXPECT_EQ(WaitForEnd("clinic", other).state, JobState::kSucceeded);
+}
+
 class DurableFilesTest : public DurableRecoveryTest {
  protected:
   void SetUp() override {
