@@ -14,6 +14,7 @@
 #include "absl/strings/escaping.h"
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
 #include "absl/strings/str_split.h"
 #include "core/exec/status_macros.h"
 #include "server/settings/setting.h"
@@ -89,28 +90,35 @@ absl::Status TokenTable::AddTerm(const std::string& word, Entry& entry) {
   return absl::InvalidArgumentError(absl::StrCat(word, ": ", std::string(status.message())));
 }
 
-absl::Status TokenTable::AddLine(const std::vector<std::string>& words) {
+std::vector<std::string> TokenTable::AddLine(const std::vector<std::string>& words) {
   if (!IsTenantName(words[0])) {
-    return absl::InvalidArgumentError(
+    return {
         "the first word must be a tenant's name: 1 to 64 of a-z, 0-9, - and _, a letter or digit "
-        "first");
+        "first"};
   }
-  if (words.size() < 2) return absl::InvalidArgumentError("the SHA-256 of the token is missing");
+  if (words.size() < 2) return {"the SHA-256 of the token is missing"};
+  std::vector<std::string> errors;
+  const auto note = [&errors](const absl::Status& status) {
+    if (!status.ok()) errors.emplace_back(status.message());
+  };
   Entry entry = {.digest = {}, .caller = {.tenant = words[0]}};
-  BCCSKEL_ASSIGN_OR_RETURN(entry.digest, DigestFromHex(words[1]));
-  for (const Entry& other : entries_) {
-    if (SameDigest(other.digest, entry.digest)) {
-      return absl::InvalidArgumentError("this token is also in another line");
-    }
-  }
+  const absl::StatusOr<Sha256Digest> digest = DigestFromHex(words[1]);
+  note(digest.status());
+  if (digest.ok()) entry.digest = *digest;
+  const bool again = digest.ok() && std::ranges::any_of(entries_, [&](const Entry& other) {
+                       return SameDigest(other.digest, *digest);
+                     });
+  if (again) errors.emplace_back("this token is also in another line");
   tenants_.try_emplace(words[0], TenantLimits{.weight = 0});
-  for (size_t n = 2; n < words.size(); ++n) BCCSKEL_RETURN_IF_ERROR(AddTerm(words[n], entry));
+  for (size_t n = 2; n < words.size(); ++n) note(AddTerm(words[n], entry));
   entries_.push_back(std::move(entry));
-  return absl::OkStatus();
+  return errors;
 }
 
 absl::StatusOr<TokenTable> TokenTable::Parse(std::string_view text) {
+  constexpr size_t kMostErrors = 20;
   TokenTable table;
+  std::vector<std::string> errors;
   std::istringstream lines{std::string(text)};
   int number = 0;
   for (std::string line; std::getline(lines, line);) {
@@ -119,11 +127,16 @@ absl::StatusOr<TokenTable> TokenTable::Parse(std::string_view text) {
     const std::vector<std::string> words =
         absl::StrSplit(line, absl::ByAnyChar(" \t\r"), absl::SkipEmpty());
     if (words.empty()) continue;
-    if (const absl::Status added = table.AddLine(words); !added.ok()) {
-      return absl::InvalidArgumentError(
-          absl::StrCat("line ", number, ": ", std::string(added.message())));
+    for (const std::string& error : table.AddLine(words)) {
+      errors.push_back(absl::StrCat("line ", number, ": ", error));
     }
   }
+  if (errors.size() > kMostErrors) {
+    const size_t more = errors.size() - kMostErrors;
+    errors.resize(kMostErrors);
+    errors.push_back(absl::StrCat("and ", more, " more errors"));
+  }
+  if (!errors.empty()) return absl::InvalidArgumentError(absl::StrJoin(errors, "; "));
   for (auto& [name, limits] : table.tenants_) limits.weight = std::max(1, limits.weight);
   return table;
 }

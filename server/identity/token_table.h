@@ -43,7 +43,8 @@ struct Caller {
 // password, a token cannot be guessed. A '#' begins a comment.
 class TokenTable {
  public:
-  // Errors: INVALID_ARGUMENT with the line; the message holds no digest.
+  // Errors: INVALID_ARGUMENT with the first twenty errors and their lines; the message holds no
+  //         digest.
   static absl::StatusOr<TokenTable> Parse(std::string_view text);
   // Errors: NOT_FOUND if the file cannot be read; INVALID_ARGUMENT.
   static absl::StatusOr<TokenTable> ReadFile(const std::string& path);
@@ -59,7 +60,8 @@ class TokenTable {
     Caller caller;
   };
 
-  absl::Status AddLine(const std::vector<std::string>& words);
+  // Add one entry; yield all that is wrong with it.
+  std::vector<std::string> AddLine(const std::vector<std::string>& words);
   absl::Status AddTerm(const std::string& word, Entry& entry);
 
   std::vector<Entry> entries_;

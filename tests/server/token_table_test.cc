@@ -70,6 +70,22 @@ TEST(TokenTable, NamesTheLineAndTheFaultButNoDigest) {
   }
 }
 
+TEST(TokenTable, NamesEveryFault) {
+  const std::string good = TokenLine("acme", kToken);
+  const absl::Status status =
+      TokenTable::Parse("Acme x\n" + good + " weight=0 admin color=red\nlab\n").status();
+  EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
+  for (const char* fault : {"line 1: the first word", "; line 2: weight=0: 0: must be a number",
+                            "; line 2: color=red: must be", "; line 3: the SHA-256"}) {
+    EXPECT_THAT(std::string(status.message()), HasSubstr(fault));
+  }
+  std::string text;
+  for (int n = 0; n < 1000; ++n) text += "Acme\n";
+  EXPECT_THAT(std::string(TokenTable::Parse(text).status().message()),
+              testing::AllOf(HasSubstr("line 1: "), HasSubstr("; and 980 more errors"),
+                             testing::Not(HasSubstr("line 21:"))));
+}
+
 TEST(NewToken, IsLongAndNeverTheSame) {
   const auto one = NewToken(), other = NewToken();
   ASSERT_TRUE(one.ok() && other.ok());
