@@ -104,7 +104,8 @@ GivenValues ReadEnvironment(const std::vector<Setting>& settings,
 
 absl::StatusOr<GivenValues> ReadConfigFile(const std::string& path) {
   std::ifstream file(path);
-  if (!file.is_open()) {
+  file.peek();  // fails for a folder, which can be opened
+  if (!file.is_open() || file.bad()) {
     return absl::NotFoundError(absl::StrCat(path, ": cannot be read: ", std::strerror(errno)));
   }
   GivenValues given;

@@ -101,6 +101,11 @@ class SettingsTest(unittest.TestCase):
             self.assertIn(complaint, errors)
         self.assertEqual(len(errors.splitlines()), 7)
 
+    def test_a_folder_is_no_settings_file(self):
+        ended = server_process.run_to_end("--check-config", "--config", tempfile.gettempdir())
+        self.assertEqual(ended.returncode, 2)
+        self.assertIn(f"--config: {tempfile.gettempdir()}: cannot be read", ended.stderr)
+
 
 class ListenersTest(unittest.TestCase):
     def test_each_address_is_listened_on(self):
