@@ -3,8 +3,6 @@
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
 #include <grpcpp/health_check_service_interface.h>
 #include <grpcpp/impl/server_builder_option.h>
-#include <grpcpp/security/tls_certificate_provider.h>
-#include <grpcpp/security/tls_credentials_options.h>
 
 #include <mutex>
 #include <utility>
@@ -26,7 +24,6 @@ constexpr int kMinPingIntervalMs = 10'000;
 constexpr int kPingIntervalMs = 60'000, kPingTimeoutMs = 20'000;
 // Time for a new connection to start HTTP/2.
 constexpr int kHandshakeMs = 20'000;
-constexpr unsigned kCertificateCheckSeconds = 1;
 
 // gRPC adds reflection, its only plug-in here, to all servers of the process; this removes it.
 class WithoutReflection : public grpc::ServerBuilderOption {
@@ -47,19 +44,6 @@ void Configure(grpc::ServerBuilder& builder) {
   builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, kHandshakeMs);
 }
 
-std::shared_ptr<grpc::ServerCredentials> TlsCredentials(const TlsFiles& files) {
-  using grpc::experimental::FileWatcherCertificateProvider;
-  grpc::experimental::TlsServerCredentialsOptions options(
-      std::make_shared<FileWatcherCertificateProvider>(files.key, files.certificate,
-                                                       files.client_ca, kCertificateCheckSeconds));
-  options.watch_identity_key_cert_pairs();
-  if (!files.client_ca.empty()) {
-    options.watch_root_certs();
-    options.set_cert_request_type(GRPC_SSL_REQUEST_AND_REQUIRE_CLIENT_CERTIFICATE_AND_VERIFY);
-  }
-  return grpc::experimental::TlsServerCredentials(options);
-}
-
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<Listener>> Listener::Start(ListenerPlan plan) {
@@ -69,7 +53,6 @@ absl::StatusOr<std::unique_ptr<Listener>> Listener::Start(ListenerPlan plan) {
     grpc::reflection::InitProtoReflectionServerBuilderPlugin();
   });
   std::unique_ptr<Listener> listener(new Listener);
-  BCCSKEL_RETURN_IF_ERROR(CheckTlsFiles(plan.tls));
   BCCSKEL_RETURN_IF_ERROR(listener->Listen(plan.addresses));
   BCCSKEL_RETURN_IF_ERROR(listener->Serve(plan));
   listener->healthy_ = std::move(plan.healthy);
@@ -93,12 +76,12 @@ absl::Status Listener::Listen(const std::vector<std::string>& addresses) {
 
 absl::Status Listener::Serve(ListenerPlan& plan) {
   grpc::ServerBuilder builder;
-  const auto plain = grpc::InsecureServerCredentials();
-  const auto tls = plan.tls.enabled() ? TlsCredentials(plan.tls) : plain;
   std::vector<std::unique_ptr<ExternalConnectionAcceptor>> takers;
   for (const std::string& address : addresses_) {
+    const bool secure = plan.tls != nullptr && SocketPathOf(address).empty();
     takers.push_back(builder.experimental().AddExternalConnectionAcceptor(
-        ExternalConnectionType::FROM_FD, SocketPathOf(address).empty() ? tls : plain));
+        ExternalConnectionType::FROM_FD,
+        secure ? plan.tls->CredentialsOfAddress() : grpc::InsecureServerCredentials()));
   }
   for (grpc::Service* service : plan.services) builder.RegisterService(service);
   if (plan.reflection == ListenerPlan::Reflection::kOff) {

@@ -10,15 +10,15 @@
 
 #include "absl/status/statusor.h"
 #include "server/connection_acceptor.h"
-#include "server/identity/tls_files.h"
 #include "server/metrics/server_metrics.h"
+#include "server/served_certificates.h"
 
 namespace bccskel::server {
 
 // What a set of addresses serves.
 struct ListenerPlan {
   std::vector<std::string> addresses;    // each HOST:PORT or unix:PATH
-  TlsFiles tls;                          // for each HOST:PORT
+  ServedCertificates* tls = nullptr;     // for each HOST:PORT; null: no encryption
   std::vector<grpc::Service*> services;  // not owned
   std::vector<std::string> healthy;      // full names of the services in health checks
   enum class Reflection { kOff, kOn } reflection = Reflection::kOff;

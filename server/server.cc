@@ -92,6 +92,15 @@ bool AdminsShareThePublicListener(const ServerConfig& config) {
   return config.admin_listen.empty() && std::ranges::all_of(config.listen, IsOfThisMachine);
 }
 
+void LogReload(const char* what, const absl::StatusOr<Reload>& reload,
+               std::initializer_list<LogField> fields = {}) {
+  if (!reload.ok()) {
+    return Log(LogLevel::kError, absl::StrCat(what, " not reloaded"),
+               {{"message", std::string(reload.status().message())}});
+  }
+  if (*reload == Reload::kDone) Log(LogLevel::kInfo, absl::StrCat(what, " reloaded"), fields);
+}
+
 std::optional<double> CertificateEndSeconds(const TlsFiles& tls) {
   if (!tls.enabled()) return std::nullopt;
   const auto end = CertificateEnd(tls);
@@ -191,7 +200,9 @@ Server::Server(const ServerConfig& config, std::unique_ptr<Callers> callers)
       jobs_(config.limits,
             {.on_admitted = [this](uint64_t volume_bytes) { metrics_.CountAdmitted(volume_bytes); },
              .on_end = [this](const JobEnd& end) { metrics_.Count(end); }}),
-      codec_(std::make_unique<MessageCodec>(config_.limits.volume)) {}
+      codec_(std::make_unique<MessageCodec>(config_.limits.volume)),
+      certificates_(config.tls.enabled() ? std::make_unique<ServedCertificates>(config.tls)
+                                         : nullptr) {}
 
 Server::~Server() {
   metrics_.Hide();
@@ -237,9 +248,10 @@ absl::Status Server::OpenData() {
 }
 
 absl::Status Server::Listen() {
+  if (certificates_ != nullptr) BCCSKEL_RETURN_IF_ERROR(certificates_->ReloadIfChanged().status());
   ListenerPlan plan;
   plan.addresses = config_.listen;
-  plan.tls = config_.tls;
+  plan.tls = certificates_.get();
   services_->AddPublic(plan);
   if (AdminsShareThePublicListener(config_)) services_->AddAdmin(plan);
   for (const std::string& service : plan.healthy) ExpectCallsOf(service, metrics_);
@@ -260,7 +272,7 @@ absl::Status Server::ListenForAdmins() {
   if (config_.admin_listen.empty()) return absl::OkStatus();
   ListenerPlan plan;
   plan.addresses = {config_.admin_listen};
-  plan.tls = config_.tls;
+  plan.tls = certificates_.get();
   services_->AddAdmin(plan);
   BCCSKEL_ASSIGN_OR_RETURN(admin_listener_, Listener::Start(std::move(plan)));
   Log(LogLevel::kInfo, "listening for admins", {{"address", admin_address()}});
@@ -295,13 +307,11 @@ std::string Server::admin_address() const {
 }
 
 void Server::ReloadIfChanged() {
-  const absl::StatusOr<Callers::Reload> reload = callers_->ReloadIfChanged();
-  if (!reload.ok() || *reload == Callers::Reload::kDone) TakeReload(reload.status());
+  TakeTokens(callers_->ReloadIfChanged());
+  if (certificates_ != nullptr) LogReload("certificates", certificates_->ReloadIfChanged());
 }
 
-void Server::ReloadNow() {
-  if (!config_.tokens.empty()) TakeReload(callers_->ReloadNow());
-}
+void Server::ReloadNow() { TakeTokens(callers_->ReloadNow()); }
 
 void Server::EnforceCallLimits() { services_->EnforceCallLimits(); }
 
@@ -327,14 +337,9 @@ void Server::UpdateDataHealth() {
 
 void Server::SetTenants() { jobs_.SetTenants({.each = {}, .named = callers_->tenants()}); }
 
-void Server::TakeReload(const absl::Status& status) {
-  if (!status.ok()) {
-    return Log(LogLevel::kError, "tokens not reloaded",
-               {{"message", std::string(status.message())}});
-  }
-  SetTenants();
-  Log(LogLevel::kInfo, "tokens reloaded",
-      {{"tenants", static_cast<int64_t>(callers_->tenants().size())}});
+void Server::TakeTokens(const absl::StatusOr<Reload>& reload) {
+  if (reload.ok() && *reload == Reload::kDone) SetTenants();
+  LogReload("tokens", reload, {{"tenants", static_cast<int64_t>(callers_->tenants().size())}});
 }
 
 void Server::WaitLameDuckTime() {

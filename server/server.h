@@ -17,6 +17,7 @@ namespace bccskel::server {
 class DurableJobs;
 class JobCodec;
 class Listener;
+class ServedCertificates;
 
 // The running server: listeners, services, health, reflection, metrics and the jobs behind them.
 class Server {
@@ -35,7 +36,8 @@ class Server {
   // The HOST:PORT of the metrics for Prometheus; empty: none.
   const std::string& metrics_address() const { return metrics_.shown_at(); }
 
-  // Reloads the tokens file and logs the outcome. Certificates reload by themselves.
+  // Reload the files of tokens and certificates, or the tokens even if their file seems unchanged,
+  // and log the outcome.
   void ReloadIfChanged();
   void ReloadNow();
   // Ends calls with a removed token, and calls that have exceeded a timeout for sending or reading.
@@ -64,7 +66,7 @@ class Server {
   ServerGauges Gauges() const;
   void WaitLameDuckTime();
   void SetTenants();
-  void TakeReload(const absl::Status& status);
+  void TakeTokens(const absl::StatusOr<Reload>& reload);
 
   const ServerConfig config_;
   const std::unique_ptr<Callers> callers_;
@@ -76,7 +78,8 @@ class Server {
   // services_, so it also ends before these; the listeners end the calls first of all.
   std::unique_ptr<Services> services_;
   std::unique_ptr<const JobCodec> codec_;
-  std::unique_ptr<DurableJobs> durable_jobs_;  // null without a data directory
+  std::unique_ptr<DurableJobs> durable_jobs_;         // null without a data directory
+  std::unique_ptr<ServedCertificates> certificates_;  // null without TLS
   std::unique_ptr<Listener> public_listener_;
   std::unique_ptr<Listener> admin_listener_;  // null if the public one also serves admins
 };

@@ -9,17 +9,6 @@
 namespace bccskel::server {
 namespace {
 
-struct stat FactsOfFile(const std::string& path) {
-  struct stat facts = {};
-  if (stat(path.c_str(), &facts) != 0) return {};
-  return facts;
-}
-
-bool SameFile(const struct stat& a, const struct stat& b) {
-  return a.st_dev == b.st_dev && a.st_ino == b.st_ino && a.st_size == b.st_size &&
-         a.st_mtim.tv_sec == b.st_mtim.tv_sec && a.st_mtim.tv_nsec == b.st_mtim.tv_nsec;
-}
-
 // The token of a header such as "Bearer TOKEN"; the scheme is case-insensitive (RFC 9110).
 std::optional<std::string_view> BearerToken(std::string_view header) {
   constexpr std::string_view kScheme = "bearer ";
@@ -36,7 +25,7 @@ std::optional<std::string_view> BearerToken(std::string_view header) {
 
 absl::StatusOr<std::unique_ptr<Callers>> Callers::Create(const std::string& path) {
   std::unique_ptr<Callers> callers(new Callers(path));
-  if (!path.empty()) BCCSKEL_RETURN_IF_ERROR(callers->ReloadNow());
+  BCCSKEL_RETURN_IF_ERROR(callers->ReloadNow().status());
   return callers;
 }
 
@@ -63,24 +52,23 @@ std::map<std::string, TenantLimits> Callers::tenants() const {
   return table()->tenants();
 }
 
-absl::StatusOr<Callers::Reload> Callers::ReloadIfChanged() {
+absl::StatusOr<Reload> Callers::ReloadIfChanged() {
   {
     std::lock_guard lock(reload_mutex_);
-    if (path_.empty() || SameFile(FactsOfFile(path_), seen_)) return Reload::kNotNeeded;
+    if (path_.empty() || !changes_.Look()) return Reload::kNotNeeded;
   }
-  BCCSKEL_RETURN_IF_ERROR(ReloadNow());
-  return Reload::kDone;
+  return ReloadNow();
 }
 
-absl::Status Callers::ReloadNow() {
-  if (path_.empty()) return absl::OkStatus();
+absl::StatusOr<Reload> Callers::ReloadNow() {
+  if (path_.empty()) return Reload::kNotNeeded;
   std::lock_guard reload_lock(reload_mutex_);
-  seen_ = FactsOfFile(path_);  // before the read, so that the next check sees a change during it
+  changes_.Look();
   BCCSKEL_ASSIGN_OR_RETURN(TokenTable table, TokenTable::ReadFile(path_));
   std::lock_guard lock(mutex_);
   table_ = std::make_shared<const TokenTable>(std::move(table));
   ++generation_;
-  return absl::OkStatus();
+  return Reload::kDone;
 }
 
 }  // namespace bccskel::server

@@ -1,8 +1,6 @@
 #ifndef BCCSKEL_SERVER_IDENTITY_CALLERS_H_
 #define BCCSKEL_SERVER_IDENTITY_CALLERS_H_
 
-#include <sys/stat.h>
-
 #include <atomic>
 #include <cstdint>
 #include <map>
@@ -13,6 +11,7 @@
 #include <string_view>
 
 #include "absl/status/statusor.h"
+#include "server/identity/file_changes.h"
 #include "server/identity/token_table.h"
 
 namespace bccskel::server {
@@ -38,15 +37,14 @@ class Callers {
   // Increases each time a file is loaded.
   uint64_t generation() const { return generation_; }
 
-  enum class Reload { kNotNeeded, kDone };
   // Reads the file again if it has changed since the last read. A file with an error changes
   // nothing: the old tokens stay valid.
   // Errors: as TokenTable::ReadFile(), once for each change of the file.
   absl::StatusOr<Reload> ReloadIfChanged();
-  absl::Status ReloadNow();
+  absl::StatusOr<Reload> ReloadNow();
 
  private:
-  explicit Callers(std::string path) : path_(std::move(path)) {}
+  explicit Callers(const std::string& path) : path_(path), changes_({path}) {}
   std::shared_ptr<const TokenTable> table() const;
 
   const std::string path_;  // empty: no tokens
@@ -54,7 +52,7 @@ class Callers {
   std::shared_ptr<const TokenTable> table_;  // guarded by mutex_
   std::atomic<uint64_t> generation_ = 0;
   std::mutex reload_mutex_;
-  struct stat seen_ = {};  // guarded by reload_mutex_: the file at the last read
+  FileChanges changes_;  // guarded by reload_mutex_
 };
 
 }  // namespace bccskel::server

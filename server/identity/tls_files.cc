@@ -5,6 +5,8 @@
 #include <openssl/x509.h>
 
 #include <ctime>
+#include <fstream>
+#include <iterator>
 #include <memory>
 
 #include "absl/strings/str_cat.h"
@@ -52,6 +54,11 @@ absl::Status CheckPair(SSL_CTX& context, const TlsFiles& files) {
                        : "cannot be read as a PEM key without a password");
 }
 
+std::string BytesIn(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
 }  // namespace
 
 absl::Status CheckTlsFiles(const TlsFiles& files) {
@@ -66,6 +73,13 @@ absl::Status CheckTlsFiles(const TlsFiles& files) {
     return Bad("--tls-client-ca", files.client_ca, "cannot be read as PEM certificates");
   }
   return absl::OkStatus();
+}
+
+absl::StatusOr<TlsBytes> ReadTlsFiles(const TlsFiles& files) {
+  BCCSKEL_RETURN_IF_ERROR(CheckTlsFiles(files));
+  return TlsBytes{.certificate = BytesIn(files.certificate),
+                  .key = BytesIn(files.key),
+                  .client_ca = BytesIn(files.client_ca)};
 }
 
 absl::StatusOr<std::chrono::system_clock::time_point> CertificateEnd(const TlsFiles& files) {

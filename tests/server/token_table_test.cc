@@ -117,11 +117,11 @@ TEST(Callers, ReadTheFileAgainOnlyWhenItHasChanged) {
   std::ofstream(folder / "tokens") << TokenLine("acme", kToken) << '\n';
   const auto callers = Callers::Create(folder / "tokens");
   ASSERT_TRUE(callers.ok()) << callers.status();
-  EXPECT_EQ(*(*callers)->ReloadIfChanged(), Callers::Reload::kNotNeeded);
+  EXPECT_EQ(*(*callers)->ReloadIfChanged(), Reload::kNotNeeded);
   std::ofstream(folder / "new") << "nonsense\n";
   std::filesystem::rename(folder / "new", folder / "tokens");
   EXPECT_FALSE((*callers)->ReloadIfChanged().ok());
-  EXPECT_EQ(*(*callers)->ReloadIfChanged(), Callers::Reload::kNotNeeded) << "told once";
+  EXPECT_EQ(*(*callers)->ReloadIfChanged(), Reload::kNotNeeded) << "told once";
   EXPECT_TRUE((*callers)->Identify("Bearer " + kToken).ok()) << "what was good before still is";
 }
 

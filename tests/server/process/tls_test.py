@@ -140,6 +140,42 @@ class TlsTest(unittest.TestCase):
                 self.assertLess(time.monotonic(), end)
             self.assertEqual(outcome(server.address, ours), grpc.StatusCode.UNAVAILABLE)
 
+    def test_while_a_file_is_wrong_it_is_named_and_the_certificates_before_are_served(self):
+        folder = self.folder / "live_files"
+        folder.mkdir()
+        certificate, key, clients = (folder / name for name in ("c.pem", "k.pem", "ca.pem"))
+        good = {certificate: self.pair.certificate.read_bytes(), key: self.pair.key.read_bytes(),
+                clients: self.root}
+        for path, data in good.items():
+            path.write_bytes(data)
+        credentials = grpc.ssl_channel_credentials(self.root, *self.ours.issue("client").bytes())
+        with ServerProcess("--tls-cert", str(certificate), "--tls-key", str(key),
+                           "--tls-client-ca", str(clients)) as server:
+            def wait_for(event, complaint=""):
+                while not any(event in line and complaint in line for line in server.log_text()[at:]
+                              .splitlines()):
+                    self.assertIsNone(server.process.poll(), server.log_text())
+                    time.sleep(0.05)
+
+            other_key = self.theirs.issue("stranger").key.read_bytes()
+            for path, data, complaint in [
+                    (certificate, b"", "c.pem: cannot be read as a PEM certificate"),
+                    (certificate, b"rubbish", "c.pem: cannot be read as a PEM certificate"),
+                    (certificate, None, "c.pem: cannot be read as a PEM certificate"),
+                    (key, b"", "k.pem: cannot be read as a PEM key"),
+                    (key, other_key, f"{key}: is not the key of {certificate}"),
+                    (clients, b"", "ca.pem: cannot be read as PEM certificates")]:
+                at = len(server.log_text())
+                if data is None:
+                    path.unlink()
+                else:
+                    path.write_bytes(data)
+                wait_for("certificates not reloaded", complaint)
+                self.assertEqual(outcome(server.address, credentials), grpc.StatusCode.OK, complaint)
+                path.write_bytes(good[path])
+                wait_for("certificates reloaded")
+                self.assertEqual(outcome(server.address, credentials), grpc.StatusCode.OK, complaint)
+
     @unittest.skipUnless(CLI, "the command line is not built")
     def test_the_command_line_speaks_tls_and_shows_certificate_and_token(self):
         token, line = run_to_end("--new-token", "acme").stdout.splitlines()
