@@ -57,13 +57,21 @@ absl::StatusOr<exec::Descriptor> ListenTo(const sockaddr* name, socklen_t size,
   return listener;
 }
 
+absl::Status OtherListens(const std::string& path) {
+  return absl::AlreadyExistsError(absl::StrCat("another server listens on unix:", path));
+}
+
 // Removes the socket that a crash has left. Any other file of this name is not ours to remove.
-absl::Status RemoveSocket(const std::string& path) {
+absl::Status RemoveSocket(const sockaddr_un& name, const std::string& path) {
   struct stat there = {};
   if (lstat(path.c_str(), &there) != 0) return absl::OkStatus();
   if (!S_ISSOCK(there.st_mode)) {
     return CannotListen("unix:" + path, "the path exists and is not a socket");
   }
+  // Somebody may have removed its lock.
+  const exec::Descriptor caller(socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  const int called = connect(caller.get(), reinterpret_cast<const sockaddr*>(&name), sizeof(name));
+  if (called == 0 || errno == EAGAIN) return OtherListens(path);
   unlink(path.c_str());
   return absl::OkStatus();
 }
@@ -111,8 +119,7 @@ absl::StatusOr<SocketLock> SocketLock::Take(const std::string& socket_path) {
           absl::StrCat("cannot make ", path, ": ", std::strerror(errno)));
     }
     if (flock(file.get(), LOCK_EX | LOCK_NB) != 0) {
-      return absl::AlreadyExistsError(
-          absl::StrCat("another server listens on unix:", socket_path, " (it holds ", path, ")"));
+      return OtherListens(socket_path);
     }
     if (IsNamedBy(file.get(), path)) return SocketLock(path, std::move(file));
   }
@@ -163,7 +170,7 @@ absl::Status ConnectionAcceptor::ListenToPath(const std::string& path) {
                                            sizeof(name.sun_path) - 1));
   }
   path.copy(name.sun_path, path.size());
-  BCCSKEL_RETURN_IF_ERROR(RemoveSocket(path));
+  BCCSKEL_RETURN_IF_ERROR(RemoveSocket(name, path));
   BCCSKEL_ASSIGN_OR_RETURN(
       exec::Descriptor listener,
       ListenTo(reinterpret_cast<const sockaddr*>(&name), sizeof(name), "unix:" + path));

@@ -46,7 +46,8 @@ class ConnectionAcceptor {
 
   // Returns once it listens, for HOST:PORT at every address of the host. For unix:PATH it replaces
   // an existing socket.
-  // Errors: INVALID_ARGUMENT with the system's reason, or if PATH exists and is not a socket.
+  // Errors: INVALID_ARGUMENT with the system's reason, or if PATH exists and is not a socket;
+  //         ALREADY_EXISTS for a socket that somebody listens on.
   static absl::StatusOr<std::unique_ptr<ConnectionAcceptor>> Listen(const std::string& address);
 
   ~ConnectionAcceptor();  // as Stop()

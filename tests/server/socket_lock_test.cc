@@ -69,5 +69,18 @@ TEST(SocketLock, ManyWhoTakeAndLeaveItNeverHoldItTogether) {
   EXPECT_GT(taken, 0);
 }
 
+TEST(ConnectionAcceptor, LeavesASocketThatAServerListensOnThoughItsLockWasRemoved) {
+  const test::TemporaryFolder folder;
+  const std::string address = "unix:" + (folder / "s");
+  {
+    const auto first = ConnectionAcceptor::Listen(address);
+    ASSERT_TRUE(first.ok()) << first.status();
+    EXPECT_EQ(ConnectionAcceptor::Listen(address).status().code(),
+              absl::StatusCode::kAlreadyExists);
+    EXPECT_TRUE(std::filesystem::is_socket(folder / "s"));
+  }
+  EXPECT_TRUE(ConnectionAcceptor::Listen(address).ok());
+}
+
 }  // namespace
 }  // namespace bccskel::server
