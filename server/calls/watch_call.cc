@@ -45,13 +45,13 @@ class WatchCall final : public WatchBase, public JobWatcher {
   void OnWatchEnd(const absl::Status& status) override { End(StorageError(status)); }
 
  private:
-  using Clock = std::chrono::system_clock;
+  using Clock = std::chrono::steady_clock;
 
   std::optional<v1::WatchJobResponse> Next() override {
     std::optional<v1::WatchJobResponse> next = events_.Next();
     if (!next.has_value() && heartbeat_due_) {
       next.emplace().set_sequence(events_.sequence());
-      *next->mutable_time() = ToMessage(Clock::now());
+      *next->mutable_time() = ToMessage(std::chrono::system_clock::now());
       next->mutable_heartbeat();
     }
     heartbeat_due_ = false;
@@ -71,7 +71,8 @@ class WatchCall final : public WatchBase, public JobWatcher {
     if (finished_) return;
     // A new one each time: an alarm must not be set in its own callback.
     silence_ = std::make_unique<grpc::Alarm>();
-    silence_->Set(written_ + kHeartbeat, [self = Self()](bool ok) {
+    const auto left = written_ + kHeartbeat - Clock::now();
+    silence_->Set(std::chrono::system_clock::now() + left, [self = Self()](bool ok) {
       if (ok) self->OnAlarm();
     });
   }
