@@ -22,7 +22,7 @@ class LabelsCall final
              const LabelConsumer& consume)
       : UploadCall(context, stream), options_(options), consume_(consume) {}
 
-  // Errors: see Connection::SkeletonizeLabels().
+  // Errors: see SkeletonizeClient::SkeletonizeLabels().
   absl::StatusOr<LabelsReport> Run(const EncodedLabels& volume);
 
  private:

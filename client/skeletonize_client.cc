@@ -1,5 +1,6 @@
 #include "client/skeletonize_client.h"
 
+#include "client/retry_loop.h"
 #include "core/exec/status_macros.h"
 
 namespace bccskel::client {
@@ -8,7 +9,9 @@ absl::StatusOr<SkeletonizeResult> SkeletonizeClient::Skeletonize(const Volume& o
                                                                  const CallOptions& options) {
   BCCSKEL_ASSIGN_OR_RETURN(const EncodedVolume encoded,
                            EncodeForSending(object, BestEncodingOf(object), options.stop));
-  return connection_->Skeletonize(encoded, options);
+  return RetryLoop(policy_, pause_, options.timeout, options.stop).Run([&](auto deadline) {
+    return stub_->Skeletonize(encoded, options, deadline);
+  });
 }
 
 absl::StatusOr<LabelsReport> SkeletonizeClient::SkeletonizeLabels(const LabelVolume& volume,
@@ -16,7 +19,20 @@ absl::StatusOr<LabelsReport> SkeletonizeClient::SkeletonizeLabels(const LabelVol
                                                                   const LabelConsumer& consume) {
   BCCSKEL_ASSIGN_OR_RETURN(const EncodedLabels encoded,
                            EncodeForSending(volume, options.labels, options.stop));
-  return connection_->SkeletonizeLabels(encoded, options, consume);
+  RetryLoop loop(policy_, pause_, options.timeout, options.stop);
+  const LabelConsumer consume_once = [&](LabelSkeleton&& skeleton) {
+    loop.Stop();
+    return consume(std::move(skeleton));
+  };
+  return loop.Run([&](auto deadline) {
+    return stub_->SkeletonizeLabels(encoded, options, consume_once, deadline);
+  });
+}
+
+absl::StatusOr<ServerDescription> SkeletonizeClient::Describe(std::chrono::milliseconds timeout) {
+  return RetryLoop(policy_, pause_, timeout, {}).Run([&](auto deadline) {
+    return stub_->Describe(deadline);
+  });
 }
 
 }  // namespace bccskel::client

@@ -319,8 +319,8 @@ absl::Status OnServer(const LabelsArguments& arguments, const LabeledObjects& la
   options.timeout = arguments.timeout;
   options.stop = stop;
   BCCSKEL_ASSIGN_OR_RETURN(const client::Endpoint endpoint, EndpointOf(arguments.server));
-  BCCSKEL_ASSIGN_OR_RETURN(auto connection, client::Connect(endpoint));
-  return client::SkeletonizeClient(std::move(connection))
+  BCCSKEL_ASSIGN_OR_RETURN(std::unique_ptr<client::Stub> stub, client::MakeGrpcStub(endpoint));
+  return client::SkeletonizeClient(std::move(stub))
       .SkeletonizeLabels({labels.grid, image.label_bytes, image.voxels}, options, consume)
       .status();
 }

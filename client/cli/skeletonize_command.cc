@@ -153,9 +153,8 @@ absl::StatusOr<SkeletonizeResult> OnServer(const SkeletonizeArguments& arguments
     };
   }
   BCCSKEL_ASSIGN_OR_RETURN(const client::Endpoint endpoint, EndpointOf(arguments.server));
-  BCCSKEL_ASSIGN_OR_RETURN(std::shared_ptr<client::Connection> connection,
-                           client::Connect(endpoint));
-  return client::SkeletonizeClient(std::move(connection)).Skeletonize(object, options);
+  BCCSKEL_ASSIGN_OR_RETURN(std::unique_ptr<client::Stub> stub, client::MakeGrpcStub(endpoint));
+  return client::SkeletonizeClient(std::move(stub)).Skeletonize(object, options);
 }
 
 // `work` may be null: this process computes alone.

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
-#include "client/connection.h"
+#include "client/skeletonize_client.h"
 
 namespace bccskel::client {
 namespace {
@@ -26,7 +26,7 @@ TEST(Endpoint, ATokenDoesNotCrossANetworkInTheClear) {
   const absl::Status refused = CheckEndpoint(endpoint);
   EXPECT_EQ(refused.code(), absl::StatusCode::kFailedPrecondition);
   EXPECT_EQ(std::string(refused.message()).find(endpoint.token), std::string::npos);
-  EXPECT_EQ(Connect(endpoint).status(), refused);
+  EXPECT_EQ(MakeGrpcStub(endpoint).status(), refused);
   endpoint.tls.ca = kCertificate;
   EXPECT_TRUE(CheckEndpoint(endpoint).ok());
   endpoint.tls.ca.clear();
@@ -64,7 +64,7 @@ TEST(Endpoint, ATokenThatNoHeaderHoldsIsRefusedAndNotShown) {
     const absl::Status refused = CheckEndpoint(endpoint);
     EXPECT_EQ(refused.code(), absl::StatusCode::kInvalidArgument) << text;
     EXPECT_EQ(std::string(refused.message()).find("secr"), std::string::npos);
-    EXPECT_EQ(Connect(endpoint).status(), refused);
+    EXPECT_EQ(MakeGrpcStub(endpoint).status(), refused);
     EXPECT_EQ(TokenToSend(text).status(), refused);
   }
 }

@@ -3,7 +3,7 @@
 #include <future>
 #include <utility>
 
-#include "client/connection.h"
+#include "client/skeletonize_client.h"
 #include "core/digest/sha256.h"
 #include "core/import/shapes/shapes.h"
 #include "proto/wire/error_details.h"

@@ -29,7 +29,7 @@ class LabelsCallTest : public testing::Test {
   absl::StatusOr<LabelsReport> Call(
       const LabelsCallOptions& options,
       const std::function<absl::Status(const LabelSkeleton&)>& after_each) {
-    return SkeletonizeClient(Connect(server_->address()))
+    return SkeletonizeClient(MakeGrpcStub(server_->address()))
         .SkeletonizeLabels(VolumeOf(test::FiveLabels()), options, [&](LabelSkeleton&& skeleton) {
           skeletons_.push_back(std::move(skeleton));
           return after_each(skeletons_.back());

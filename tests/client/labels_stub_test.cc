@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "client/connection.h"
+#include "client/skeletonize_client.h"
 #include "core/import/shapes/shapes.h"
 #include "proto/wire/result.h"
 #include "proto/wire/skeleton_chunks.h"

@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <deque>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "core/import/shapes/shapes.h"
 #include "core/io/volume_decoder.h"
@@ -12,46 +15,12 @@
 namespace bccskel::client {
 namespace {
 
-using testing::_;
-
-class MockConnection : public Connection {
- public:
-  MOCK_METHOD(absl::StatusOr<SkeletonizeResult>, Skeletonize,
-              (const EncodedVolume& volume, const CallOptions& options), (override));
-  MOCK_METHOD(absl::StatusOr<LabelsReport>, SkeletonizeLabels,
-              (const EncodedLabels& volume, const LabelsCallOptions& options,
-               const LabelConsumer& consume),
-              (override));
-  MOCK_METHOD(absl::StatusOr<ServerDescription>, Describe, (std::chrono::milliseconds timeout),
-              (override));
-};
-
-TEST(SkeletonizeClientTest, SendsAVolumeThatDecodesToTheSamePoints) {
-  for (const Shape shape : {Shape::kTubes, Shape::kBox}) {
-    const Volume object = *GenerateShape(shape, {.points = 20000});
-    const auto connection = std::make_shared<MockConnection>();
-    EXPECT_CALL(*connection, Skeletonize(_, _))
-        .WillOnce([&](const EncodedVolume& sent, const CallOptions& options) {
-          EXPECT_EQ(sent.extent, object.extent());
-          EXPECT_EQ(sent.bricks, object.brick_count());
-          EXPECT_EQ(options.threads, 3);
-          const auto decoded = DecodeVolume(sent.encoding, sent.bytes);
-          EXPECT_TRUE(decoded.ok() && *decoded == object) << ShapeName(shape);
-          return SkeletonizeResult();
-        });
-    EXPECT_TRUE(SkeletonizeClient(connection).Skeletonize(object, {.threads = 3}).ok());
-  }
-}
-
-TEST(SkeletonizeClientTest, HandsTheConnectionsErrorOn) {
-  const auto connection = std::make_shared<MockConnection>();
-  const absl::Status error = absl::ResourceExhaustedError("too large");
-  EXPECT_CALL(*connection, Skeletonize(_, _)).WillOnce([&](auto&, auto&) { return error; });
-  EXPECT_EQ(SkeletonizeClient(connection)
-                .Skeletonize(*GenerateShape(Shape::kBall, {.points = 5000}), {})
-                .status(),
-            error);
-}
+using std::chrono::milliseconds;
+using testing::AllOf;
+using testing::Each;
+using testing::ElementsAre;
+using testing::Ge;
+using testing::Le;
 
 TEST(EncodedVolumeTest, SparseObjectsTravelAsBricksAndFullBoxesAsOpenExr) {
   EXPECT_EQ(BestEncodingOf(*GenerateShape(Shape::kTubes, {.points = 200'000})),
@@ -91,6 +60,179 @@ TEST(EncodedLabelsTest, RefusesWhatIsNoVolume) {
   for (const LabelVolume& volume : {odd, cut, flat}) {
     EXPECT_TRUE(absl::IsInvalidArgument(EncodeForSending(volume, {}, {}).status()));
   }
+}
+
+// What a scripted stub was asked.
+struct Attempts {
+  EncodedVolume sent;
+  int threads = 0;
+  std::vector<Stub::Clock::time_point> deadlines;
+  int labels_first = 0;  // that are delivered before the first attempt's end
+};
+
+// Fails with each status of a script in turn, then succeeds.
+class ScriptedStub : public Stub {
+ public:
+  ScriptedStub(std::deque<absl::Status> script, Attempts& attempts)
+      : script_(std::move(script)), attempts_(attempts) {}
+
+  absl::StatusOr<SkeletonizeResult> Skeletonize(const EncodedVolume& volume,
+                                                const CallOptions& options,
+                                                Clock::time_point deadline) override {
+    attempts_.sent = volume;
+    attempts_.threads = options.threads;
+    const absl::Status status = Next(deadline);
+    if (!status.ok()) return status;
+    SkeletonizeResult result;
+    result.object_points = 42;
+    return result;
+  }
+
+  absl::StatusOr<LabelsReport> SkeletonizeLabels(const EncodedLabels&, const LabelsCallOptions&,
+                                                 const LabelConsumer& consume,
+                                                 Clock::time_point deadline) override {
+    for (; attempts_.labels_first > 0; --attempts_.labels_first) {
+      const absl::Status consumed = consume({});
+      if (!consumed.ok()) return consumed;
+    }
+    const absl::Status status = Next(deadline);
+    if (!status.ok()) return status;
+    return LabelsReport{.labels = 2};
+  }
+
+  absl::StatusOr<ServerDescription> Describe(Clock::time_point deadline) override {
+    const absl::Status status = Next(deadline);
+    if (!status.ok()) return status;
+    return ServerDescription{"1.2.3", "paper-1"};
+  }
+
+ private:
+  absl::Status Next(Clock::time_point deadline) {
+    attempts_.deadlines.push_back(deadline);
+    if (script_.empty()) return absl::OkStatus();
+    absl::Status status = script_.front();
+    script_.pop_front();
+    return status;
+  }
+
+  std::deque<absl::Status> script_;
+  Attempts& attempts_;
+};
+
+class SkeletonizeClientTest : public testing::Test {
+ protected:
+  SkeletonizeClient ClientOf(std::deque<absl::Status> script, const RetryPolicy& policy = {}) {
+    return SkeletonizeClient(
+        std::make_unique<ScriptedStub>(std::move(script), attempts_), policy,
+        [this](milliseconds pause, const std::stop_token&) { pauses_.push_back(pause); });
+  }
+
+  const Volume object_ = *GenerateShape(Shape::kBall, {.points = 5000});
+  Attempts attempts_;
+  std::vector<milliseconds> pauses_;
+};
+
+const absl::Status kGone = absl::UnavailableError("nobody listens");
+
+TEST_F(SkeletonizeClientTest, SendsAVolumeThatDecodesToTheSamePoints) {
+  for (const Shape shape : {Shape::kTubes, Shape::kBox}) {
+    const Volume object = *GenerateShape(shape, {.points = 20000});
+    ASSERT_TRUE(ClientOf({}).Skeletonize(object, {.threads = 3}).ok());
+    const EncodedVolume& sent = attempts_.sent;
+    EXPECT_EQ(sent.extent, object.extent());
+    EXPECT_EQ(sent.bricks, object.brick_count());
+    EXPECT_EQ(attempts_.threads, 3);
+    const auto decoded = DecodeVolume(sent.encoding, sent.bytes);
+    EXPECT_TRUE(decoded.ok() && *decoded == object) << ShapeName(shape);
+  }
+}
+
+TEST_F(SkeletonizeClientTest, ServesTheFirstAnswerWithoutPause) {
+  const auto result = ClientOf({}).Skeletonize(object_, {});
+  ASSERT_TRUE(result.ok()) << result.status();
+  EXPECT_EQ(result->object_points, 42);
+  EXPECT_EQ(attempts_.deadlines.size(), 1);
+  EXPECT_TRUE(pauses_.empty());
+}
+
+TEST_F(SkeletonizeClientTest, TriesAgainWhileTheServerIsUnavailable) {
+  const auto result = ClientOf({kGone, kGone, kGone}).Skeletonize(object_, {});
+  ASSERT_TRUE(result.ok()) << result.status();
+  EXPECT_EQ(attempts_.deadlines.size(), 4);
+  EXPECT_THAT(pauses_, ElementsAre(AllOf(Ge(milliseconds(50)), Le(milliseconds(100))),
+                                   AllOf(Ge(milliseconds(100)), Le(milliseconds(200))),
+                                   AllOf(Ge(milliseconds(200)), Le(milliseconds(400)))));
+}
+
+TEST_F(SkeletonizeClientTest, ReportsTheServersErrorAfterTheLastAttempt) {
+  const auto result = ClientOf({kGone, kGone, kGone}, {.max_attempts = 3}).Skeletonize(object_, {});
+  EXPECT_EQ(result.status(), kGone);
+  EXPECT_EQ(attempts_.deadlines.size(), 3);
+}
+
+TEST_F(SkeletonizeClientTest, NoOtherErrorIsTriedAgain) {
+  for (int code = 1; code <= 16; ++code) {
+    const absl::Status error(static_cast<absl::StatusCode>(code), "final");
+    if (absl::IsUnavailable(error)) continue;
+    attempts_.deadlines.clear();
+    EXPECT_EQ(ClientOf({error}).Skeletonize(object_, {}).status(), error);
+    EXPECT_EQ(attempts_.deadlines.size(), 1) << error;
+  }
+}
+
+TEST_F(SkeletonizeClientTest, AllAttemptsShareOneDeadline) {
+  const auto before = Stub::Clock::now();
+  ASSERT_TRUE(
+      ClientOf({kGone, kGone}).Skeletonize(object_, {.timeout = std::chrono::hours(2)}).ok());
+  ASSERT_EQ(attempts_.deadlines.size(), 3);
+  EXPECT_THAT(attempts_.deadlines, Each(attempts_.deadlines.front()));
+  EXPECT_GE(attempts_.deadlines.front(), before + std::chrono::hours(2));
+  EXPECT_LE(attempts_.deadlines.front(), Stub::Clock::now() + std::chrono::hours(2));
+}
+
+TEST_F(SkeletonizeClientTest, DoesNotBeginAPauseThatWouldPassTheDeadline) {
+  const RetryPolicy slow = {.first_pause = std::chrono::hours(4),
+                            .longest_pause = std::chrono::hours(4)};
+  const auto result =
+      ClientOf({kGone}, slow).Skeletonize(object_, {.timeout = std::chrono::hours(1)});
+  EXPECT_EQ(result.status(), kGone);
+  EXPECT_TRUE(pauses_.empty());
+}
+
+TEST_F(SkeletonizeClientTest, AStopDuringAPauseIsTheEnd) {
+  std::stop_source source;
+  SkeletonizeClient client(std::make_unique<ScriptedStub>(std::deque{kGone}, attempts_), {},
+                           [&](milliseconds, const std::stop_token& stop) {
+                             source.request_stop();
+                             EXPECT_TRUE(stop.stop_requested());
+                           });
+  const auto result = client.Skeletonize(object_, {.stop = source.get_token()});
+  EXPECT_TRUE(absl::IsCancelled(result.status())) << result.status();
+  EXPECT_EQ(attempts_.deadlines.size(), 1);
+}
+
+absl::Status TakeAll(LabelSkeleton&&) { return absl::OkStatus(); }
+
+TEST_F(SkeletonizeClientTest, LabelsAreTriedAgainBeforeTheFirstOne) {
+  const auto report = ClientOf({kGone, kGone}).SkeletonizeLabels(SomeLabels(), {}, TakeAll);
+  ASSERT_TRUE(report.ok()) << report.status();
+  EXPECT_EQ(report->labels, 2u);
+  EXPECT_EQ(attempts_.deadlines.size(), 3);
+}
+
+TEST_F(SkeletonizeClientTest, NothingIsTriedAgainAfterTheFirstLabel) {
+  attempts_.labels_first = 1;
+  const auto report = ClientOf({kGone}).SkeletonizeLabels(SomeLabels(), {}, TakeAll);
+  EXPECT_EQ(report.status(), kGone);
+  EXPECT_EQ(attempts_.deadlines.size(), 1);
+}
+
+TEST_F(SkeletonizeClientTest, DescribesTheServerWithTheSamePatience) {
+  const auto description = ClientOf({kGone}).Describe(std::chrono::hours(1));
+  ASSERT_TRUE(description.ok()) << description.status();
+  EXPECT_EQ(description->server_version, "1.2.3");
+  EXPECT_EQ(description->algorithm_version, "paper-1");
+  EXPECT_EQ(attempts_.deadlines.size(), 2);
 }
 
 }  // namespace

@@ -85,7 +85,8 @@ absl::StatusOr<LabelOutcomes> SkeletonizeImage(ImageSource& image,
                                                const cli::LabelsArguments& arguments,
                                                const Run& run);
 
-// Needs: run.server. Errors: those of Connection::SkeletonizeLabels(); UNIMPLEMENTED for samplings.
+// Needs: run.server.
+// Errors: those of SkeletonizeClient::SkeletonizeLabels(); UNIMPLEMENTED for samplings.
 absl::StatusOr<LabelOutcomes> SkeletonizeOnServer(const client::LabelVolume& image,
                                                   const cli::LabelsArguments& arguments,
                                                   const Run& run);

@@ -209,15 +209,15 @@ py::tuple ReadMesh(const std::string& path) {
 }
 
 Server ConnectTo(const client::Endpoint& endpoint) {
-  return std::make_shared<client::SkeletonizeClient>(Value(client::Connect(endpoint)));
+  return std::make_shared<client::SkeletonizeClient>(Value(client::MakeGrpcStub(endpoint)));
 }
 
 py::dict Describe(const client::Endpoint& endpoint, double timeout) {
   const std::chrono::milliseconds most(static_cast<int64_t>(1000 * timeout));
   using Description = absl::StatusOr<client::ServerDescription>;
   const auto description = RunFor(py::none(), [&](Job&) -> Description {
-    BCCSKEL_ASSIGN_OR_RETURN(const auto connection, client::Connect(endpoint));
-    return connection->Describe(most);
+    BCCSKEL_ASSIGN_OR_RETURN(std::unique_ptr<client::Stub> stub, client::MakeGrpcStub(endpoint));
+    return client::SkeletonizeClient(std::move(stub)).Describe(most);
   });
   py::dict dict;
   dict["server_version"] = description.server_version;

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <string>
 
-#include "client/connection.h"
+#include "client/skeletonize_client.h"
 
 int main() {
   const auto stub = bccskel::client::MakeGrpcStub("unix:there-is-no-such-socket");
