@@ -80,7 +80,7 @@ absl::Status CheckName(const CallGate::Name& name) {
 }  // namespace
 
 absl::Status CallFacts::CancelStatus() const {
-  if (IsCutOff()) return Stopping();
+  if (gate->is_cut_off()) return Stopping();
   return Clock::now() >= deadline ? absl::DeadlineExceededError("the call's deadline has passed")
                                   : absl::CancelledError("the caller cancelled the call");
 }
@@ -176,10 +176,8 @@ absl::StatusOr<CallFacts> CallGate::Enter(const grpc::CallbackServerContext& con
   CallFacts facts = {.method = method,
                      .deadline = SteadyDeadline(context.deadline()),
                      .trace = TraceOf(context),
-                     .context = &context};
-  facts.cut_off = &cut_off_;
-  facts.open_streams = &open_streams_;
-  facts.unanswered = &unanswered_;
+                     .context = &context,
+                     .gate = this};
   if (cut_off_) return Refused(facts, Stopping());
   // Before the check, so that a file that changes meanwhile leads to another one.
   facts.tokens = callers_.generation();

@@ -5,7 +5,6 @@
 
 #include <atomic>
 #include <chrono>
-#include <condition_variable>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -20,10 +19,12 @@
 #include "core/exec/context.h"
 #include "server/calls/sender_clock.h"
 #include "server/durable/durable_jobs.h"
+#include "server/durable/flow.h"
 #include "server/identity/callers.h"
 
 namespace bccskel::server {
 
+class CallGate;
 struct CallFacts;
 
 // A streaming call in progress.
@@ -74,30 +75,6 @@ class OpenStreams {
   absl::Status ended_;                        // guarded by mutex_: why all were ended
 };
 
-// The unary calls that wait for their answers.
-// Threads: safe.
-class UnansweredCalls {
- public:
-  void Begin() {
-    std::lock_guard lock(mutex_);
-    ++calls_;
-  }
-  void End() {
-    std::lock_guard lock(mutex_);
-    if (--calls_ == 0) none_.notify_all();
-  }
-  // Returns when there are none, or after `timeout`.
-  void WaitForAll(std::chrono::milliseconds timeout) {
-    std::unique_lock lock(mutex_);
-    none_.wait_for(lock, timeout, [this] { return calls_ == 0; });
-  }
-
- private:
-  std::mutex mutex_;
-  std::condition_variable none_;
-  int calls_ = 0;  // guarded by mutex_
-};
-
 // A method of the interface.
 struct Method {
   const char* name = "";  // "JobService/CreateJob"
@@ -116,16 +93,10 @@ struct CallFacts {
   std::string trace;                    // the caller's traceparent, if valid; for the log
   std::string tenant = kDefaultTenant;  // of the caller
   Role role = Role::kTenant;
-  // Set while the server aborts calls; null: it never does. Outlives the call.
-  const std::atomic<bool>* cut_off = nullptr;
   std::string authorization = {};  // the header, empty if absent; never shown to anybody
   uint64_t tokens = 0;             // Callers::generation() that accepted it
-  // Watches streaming calls; null: nobody does. Outlives the call.
-  OpenStreams* open_streams = nullptr;
   const grpc::CallbackServerContext* context = nullptr;  // valid until gRPC is done with the call
-  UnansweredCalls* unanswered = nullptr;                 // null: nobody counts. Outlives the call.
-
-  bool IsCutOff() const { return cut_off != nullptr && *cut_off; }
+  const CallGate* gate = nullptr;                        // that it has entered; outlives the call
 
   // The status of a call that gRPC reports as cancelled.
   absl::Status CancelStatus() const;
@@ -179,14 +150,20 @@ class CallGate {
   // cancels as it stops tells its caller no reason. From now on cancelled calls count as aborted by
   // the server. Returns when the unary calls are answered, or after `timeout`.
   void CutOff(std::chrono::milliseconds timeout);
+  // Whether the server aborts calls.
+  bool is_cut_off() const { return cut_off_; }
   // Called once a second.
   void EnforceCallLimits() { open_streams_.EnforceLimits(); }
+
+  OpenStreams& open_streams() const { return open_streams_; }
+  // A unary call is unanswered until the last copy of the token is gone.
+  Operations::Token BeginAnswer() const { return unanswered_.Begin(); }
 
  private:
   const Callers& callers_;
   DurableJobs* const durable_jobs_;
   mutable OpenStreams open_streams_;
-  mutable UnansweredCalls unanswered_;
+  mutable Operations unanswered_;
   std::atomic<bool> cut_off_ = false;
 };
 

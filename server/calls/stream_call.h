@@ -46,7 +46,7 @@ class StreamCall : public Reactor,
   }
   void OnDone() override {
     const std::shared_ptr<StreamCall> self = std::move(self_);
-    if (facts_.open_streams != nullptr) facts_.open_streams->Remove(*this);
+    facts_.gate->open_streams().Remove(*this);
     std::unique_lock lock(mutex_);
     done_ = true;
     const absl::Status end = end_.value_or(absl::OkStatus());
@@ -60,7 +60,7 @@ class StreamCall : public Reactor,
  protected:
   void Open() {
     self_ = this->shared_from_this();
-    if (facts_.open_streams != nullptr) facts_.open_streams->Add(self_, facts_);
+    facts_.gate->open_streams().Add(self_, facts_);
   }
   // Ends the call with this status unless it is ending already.
   void End(const absl::Status& status) {
@@ -232,7 +232,7 @@ class ReceivingCall : public Base {
     absl::Status status = sequence_.HalfClose();
     if (status.ok()) return;
     // A stopping server ends reads before it cancels calls.
-    if (this->facts_.IsCutOff()) status = this->facts_.CancelStatus();
+    if (this->facts_.gate->is_cut_off()) status = this->facts_.CancelStatus();
     {
       std::lock_guard lock(this->mutex_);
       this->half_closed_ = true;

@@ -20,9 +20,10 @@ class UnaryEnd {
  public:
   // `subject` as in CallFacts::LogEnded(). Needs: created once per call.
   UnaryEnd(grpc::CallbackServerContext& context, CallFacts facts, std::string subject)
-      : reactor_(context.DefaultReactor()), facts_(std::move(facts)), subject_(std::move(subject)) {
-    if (facts_.unanswered != nullptr) facts_.unanswered->Begin();
-  }
+      : reactor_(context.DefaultReactor()),
+        facts_(std::move(facts)),
+        subject_(std::move(subject)),
+        answer_(facts_.gate->BeginAnswer()) {}
 
   void set_subject(const std::string& subject) { subject_ = subject; }
   grpc::ServerUnaryReactor* reactor() const { return reactor_; }
@@ -31,7 +32,6 @@ class UnaryEnd {
   grpc::ServerUnaryReactor* operator()(const absl::Status& status) const {
     facts_.LogEnded(subject_, status);  // first: a caller with the answer may look at the log
     reactor_->Finish(ToGrpcStatus(status));
-    if (facts_.unanswered != nullptr) facts_.unanswered->End();
     return reactor_;
   }
 
@@ -39,6 +39,7 @@ class UnaryEnd {
   grpc::ServerUnaryReactor* reactor_;
   CallFacts facts_;
   std::string subject_;
+  Operations::Token answer_;
 };
 
 // Makes the callback that answers a unary call, given the call's end. `fill` puts the value into

@@ -1,6 +1,7 @@
 #ifndef BCCSKEL_SERVER_DURABLE_FLOW_H_
 #define BCCSKEL_SERVER_DURABLE_FLOW_H_
 
+#include <chrono>
 #include <condition_variable>
 #include <coroutine>
 #include <exception>
@@ -26,6 +27,11 @@ class Operations {
   void WaitForAll() {
     std::unique_lock lock(mutex_);
     none_.wait(lock, [this] { return count_ == 0; });
+  }
+  // The same, but not longer than this.
+  void WaitForAll(std::chrono::milliseconds timeout) {
+    std::unique_lock lock(mutex_);
+    none_.wait_for(lock, timeout, [this] { return count_ == 0; });
   }
 
  private:

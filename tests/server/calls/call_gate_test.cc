@@ -36,23 +36,21 @@ TEST_F(CallGateTest, RefusesCallsThatComeWhileTheServerStops) {
 TEST_F(CallGateTest, EndsAStreamThatHasEnteredBeforeAndBeginsAfterTheCut) {
   const CallFacts facts = *gate_.Enter(context_, kMethod);
   const auto early = std::make_shared<Stream>(), late = std::make_shared<Stream>();
-  facts.open_streams->Add(early, facts);
+  gate_.open_streams().Add(early, facts);
   EXPECT_TRUE(early->end.ok());
   gate_.CutOff(kAtOnce);
-  facts.open_streams->Add(late, facts);
+  gate_.open_streams().Add(late, facts);
   EXPECT_EQ(ReasonOf(early->end), Reason::kDraining);
   EXPECT_EQ(ReasonOf(late->end), Reason::kDraining);
-  facts.open_streams->Remove(*early);
-  facts.open_streams->Remove(*late);
+  gate_.open_streams().Remove(*early);
+  gate_.open_streams().Remove(*late);
 }
 
 TEST_F(CallGateTest, WaitsForTheAnswersOfCallsBeforeTheCut) {
-  const CallFacts facts = *gate_.Enter(context_, kMethod);
   bool answered = false;
-  facts.unanswered->Begin();
-  std::jthread answer([&] {
+  std::jthread answer([&answered, call = gate_.BeginAnswer()]() mutable {
     answered = true;
-    facts.unanswered->End();
+    call = nullptr;
   });
   gate_.CutOff(std::chrono::hours(1));
   EXPECT_TRUE(answered);
