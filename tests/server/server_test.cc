@@ -122,18 +122,6 @@ TEST(Server, AnAddressInUseIsRefused) {
   EXPECT_EQ(Server::Start(config).status().code(), absl::StatusCode::kInvalidArgument);
 }
 
-TEST(Server, ASecondServerOnTheSameUnixSocketIsRefusedAndTheFirstGoesOn) {
-  const test::TemporaryFolder folder;
-  ServerConfig config = test::SmallServer();
-  config.listen = {"unix:" + folder / "server.sock"};
-  const auto first = test::StartServer(config);
-  const auto second = Server::Start(config);
-  EXPECT_EQ(second.status().code(), absl::StatusCode::kAlreadyExists) << second.status();
-  const auto replies =
-      test::Converse(test::ConnectTo(first->address()), RequestsFor(test::SmallTorusPlanes()));
-  EXPECT_TRUE(replies.status.ok()) << replies.status;
-}
-
 TEST(Server, AFileInPlaceOfItsSocketStays) {
   const test::TemporaryFolder folder;
   const std::string path = folder / "model.stl";
@@ -143,18 +131,6 @@ TEST(Server, AFileInPlaceOfItsSocketStays) {
   const absl::Status status = Server::Start(config).status();
   EXPECT_THAT(status.message(), testing::HasSubstr("the path exists and is not a socket"));
   EXPECT_EQ(std::filesystem::file_size(path), 8U);
-}
-
-TEST(Server, RemovesItsSocketAtTheEnd) {
-  const test::TemporaryFolder folder;
-  ServerConfig config = test::SmallServer();
-  config.listen = {"unix:" + folder / "server.sock"};
-  auto server = test::StartServer(config);
-  EXPECT_TRUE(std::filesystem::exists(folder / "server.sock"));
-  server->Drain();
-  server.reset();
-  EXPECT_FALSE(std::filesystem::exists(folder / "server.sock"));
-  EXPECT_TRUE(Server::Start(config).ok()) << "the path is free again";
 }
 
 TEST(ServerDrain, WaitsForTheJobsThatWereLetInAndRefusesOthers) {

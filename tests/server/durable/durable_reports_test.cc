@@ -78,22 +78,6 @@ TEST_F(DurableReportsTest, TheTraceOfAJobThatCameWithItsVolume) {
   EXPECT_EQ(Rows().at(0).trace, "trace");
 }
 
-TEST_F(DurableReportsTest, WhatACrashDidToAJobUpToPoison) {
-  runner_->Hold();
-  CreateName("clinic", TracedJob());
-  for (int crash = 1; crash <= 3; ++crash) {
-    runner_->WaitForComputing(1);
-    Crash();
-    runner_->Hold();
-    Open();
-  }
-  const JobRow last = Rows().back();
-  EXPECT_EQ(last.state, JobState::kFailed);
-  EXPECT_EQ(ReasonOf(last.error), Reason::kPoisoned);
-  EXPECT_EQ(last.attempts, 3);
-  EXPECT_EQ(last.trace, "trace");
-}
-
 TEST_F(DurableReportsTest, TheEndAlsoToWhoKnowsIt) {
   const std::string job = EndedJob();
   const uint64_t last = GetJob("clinic", job)->sequence;
@@ -116,12 +100,6 @@ TEST_F(DurableReportsTest, TheEndToWhoWaitsForLaterEventsThanThereWillBe) {
   EXPECT_EQ(watcher->States(), "3");
 }
 
-TEST_F(DurableReportsTest, TheSameTimesAtOnceAndLater) {
-  const auto made = Create("clinic", TracedJob());
-  ASSERT_TRUE(made.ok()) << made.status();
-  EXPECT_EQ(made->created, GetJob("clinic", made->name)->created);
-}
-
 TEST_F(DurableReportsTest, WhichJobARequestIdHasMade) {
   NewJob job = TracedJob();
   job.request_id = "request";
@@ -134,25 +112,6 @@ TEST_F(DurableReportsTest, WhichJobARequestIdHasMade) {
   EXPECT_EQ(ReasonOf(reused), Reason::kRequestIdReused);
   EXPECT_EQ(DetailsOf(reused).value, first);
   EXPECT_THAT(std::string(reused.message()), HasSubstr(first));
-}
-
-TEST_F(DurableReportsTest, WhichFieldIsWrong) {
-  JobQuery query;
-  query.page_token = "nonsense";
-  const auto page =
-      Get<JobPage>([&](auto done) { durable_jobs_->ListJobs("clinic", query, done); });
-  ASSERT_TRUE(ReasonOf(page.status()).has_value()) << page.status();
-  EXPECT_EQ(DetailsOf(page.status()).field, "page_token");
-  const auto upload = CreateUpload("clinic", {.name = "a b", .declaration = "1", .then_job = {}});
-  EXPECT_EQ(DetailsOf(upload.status()).field, "config.upload");
-}
-
-TEST_F(DurableReportsTest, OtherBytesThanTheDigestSaysAreAWrongVolume) {
-  const auto upload = CreateUpload("clinic", {.name = {}, .declaration = "6", .then_job = {}});
-  ASSERT_TRUE(Append("clinic", upload->name, 0, "volume").ok());
-  const auto finished = Finish("clinic", upload->name, 6, Sha256Of("another"));
-  ASSERT_TRUE(ReasonOf(finished.status()).has_value()) << finished.status();
-  EXPECT_EQ(ReasonOf(finished.status()), Reason::kVolumeInvalid);
 }
 
 TEST_F(DurableReportsTest, HowMuchCanStillBeWritten) {

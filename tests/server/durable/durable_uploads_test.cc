@@ -138,8 +138,8 @@ TEST_F(DurableUploadsTest, RefusesBadNamesAndDeclarations) {
 TEST_F(DurableUploadsTest, DropsAnUploadWithAnotherDigestThanStated) {
   const std::string upload = Begin("clinic", "", 4);
   ASSERT_TRUE(Append("clinic", upload, 0, "1234").ok());
-  EXPECT_EQ(Finish("clinic", upload, 4, Sha256Of("1235")).status().code(),
-            absl::StatusCode::kInvalidArgument);
+  EXPECT_EQ(ReasonOf(Finish("clinic", upload, 4, Sha256Of("1235")).status()),
+            Reason::kVolumeInvalid);
   EXPECT_EQ(GetUpload("clinic", upload).status().code(), absl::StatusCode::kNotFound);
   EXPECT_THAT(FilesIn("uploads"), IsEmpty());
 }

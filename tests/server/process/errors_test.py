@@ -106,16 +106,5 @@ class ErrorsTest(DurableTest):
         made = self.create(self.name)
         self.assertEqual(made.create_time, self.get(made.name).create_time)
 
-    def test_the_end_of_a_job_is_told_to_who_knows_it_already(self):
-        job = self.create(self.name).name
-        self.assertEqual(self.finish(job)[-1], jobs.JOB_STATE_SUCCEEDED)
-        last = self.get(job).last_sequence
-        for known in (last, last + 5):
-            events = list(durable.watch(self.channel, job, known))
-            self.assertEqual([event.state_change.state for event in events],
-                             [jobs.JOB_STATE_SUCCEEDED])
-            self.assertEqual(events[0].sequence, last)
-
-
 if __name__ == "__main__":
     unittest.main()

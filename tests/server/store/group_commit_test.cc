@@ -2,14 +2,9 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <algorithm>
 #include <csignal>
 #include <future>
-#include <random>
-#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -170,59 +165,6 @@ TEST(GroupCommitTest, TakesChangesFromManyThreads) {
     }
   }
   EXPECT_EQ(Open(folder)->UnfinishedJobs()->size(), 200u);
-}
-
-// Writes jobs and tells each that is confirmed through the pipe, until it is killed.
-[[noreturn]] void WriteUntilKilled(const test::TemporaryFolder& folder, int pipe, int round) {
-  GroupCommit commit(Open(folder));
-  for (uint32_t n = 0;; ++n) {
-    commit.Post(Insert(std::to_string(round) + "/" + std::to_string(n)),
-                [pipe, n](const absl::Status& status) {
-                  if (status.ok()) (void)!write(pipe, &n, sizeof(n));
-                });
-    if (n % 16 == 0) usleep(200);
-  }
-}
-
-std::set<std::string> KillAWriter(const test::TemporaryFolder& folder, int round,
-                                  int microseconds) {
-  int pipes[2] = {};
-  EXPECT_EQ(pipe(pipes), 0);
-  const pid_t child = fork();
-  if (child == 0) WriteUntilKilled(folder, pipes[1], round);
-  close(pipes[1]);
-  std::set<std::string> confirmed;
-  uint32_t n = 0;
-  // Every second writer lives long enough to confirm something, however slow the machine is.
-  if (round % 2 == 0 && read(pipes[0], &n, sizeof(n)) == sizeof(n)) {
-    confirmed.insert(std::to_string(round) + "/" + std::to_string(n));
-  }
-  usleep(static_cast<useconds_t>(microseconds));
-  kill(child, SIGKILL);
-  waitpid(child, nullptr, 0);
-  while (read(pipes[0], &n, sizeof(n)) == sizeof(n)) {
-    confirmed.insert(std::to_string(round) + "/" + std::to_string(n));
-  }
-  close(pipes[0]);
-  return confirmed;
-}
-
-TEST(GroupCommitTest, LosesNothingConfirmedHoweverOftenItIsKilled) {
-  const test::TemporaryFolder folder;
-  std::mt19937 random(20061121);
-  std::set<std::string> confirmed;
-  for (int round = 0; round < 30; ++round) {
-    confirmed.merge(KillAWriter(folder, round, static_cast<int>(random() % 60'000)));
-    const auto store = Open(folder);
-    std::set<std::string> found;
-    const std::vector<JobRow> jobs = *store->UnfinishedJobs();
-    for (const JobRow& job : jobs) {
-      EXPECT_TRUE(found.insert(job.name).second) << job.name << " twice";
-    }
-    EXPECT_TRUE(std::includes(found.begin(), found.end(), confirmed.begin(), confirmed.end()))
-        << "after round " << round;
-  }
-  EXPECT_GT(confirmed.size(), 0u) << "no round lived long enough to write";
 }
 
 }  // namespace
