@@ -21,7 +21,6 @@ absl::Status WriteFileUntil(const std::stop_token& stop, const std::string& path
     const size_t count = std::min(kMostAtOnce, bytes.size() - at);
     BCCSKEL_RETURN_IF_ERROR(file->WriteAt(at, bytes.subspan(at, count)));
   }
-  if (stop.stop_requested()) return absl::CancelledError("interrupted, so it was not written");
   return file->Commit(stop);
 }
 
