@@ -134,9 +134,8 @@ class SqliteDatabase final : public SqlDatabase {
       const absl::StatusOr<FileFacts> now = FactsOf(path);
       if (now.ok() && now->identity == identity) continue;
       return absl::DataLossError(
-          "the file of the tables or its log is gone, or another file has its name: what is "
-          "written "
-          "now would be lost");
+          "the file of the tables or its log is gone or replaced: what is written now would be "
+          "lost");
     }
     return absl::OkStatus();
   }
