@@ -133,9 +133,10 @@ void AddJunctions(CLI::App& command, double& reach) {
 void AddBorder(CLI::App& command, Border& border) {
   AddChoice<Border>(
       command, "--border", border,
-      "What lies beyond the border of an image or a volume: background (ends, default), "
-      "or the rest of the limbs that the border cuts off (continues); across an image of one "
-      "slice the object always continues",
+      "What lies beyond the border of an image or a volume: background, with the curves of limbs "
+      "that an image cuts off led to the middle of the cut (ends, default), or unknown, for stacks "
+      "that show little of their limbs (continues); across an image of one slice the object always "
+      "continues",
       Choices(std::span(kBorderWords).first<2>()));
 }
 

@@ -10,7 +10,7 @@ namespace bccskel {
 inline constexpr char kAlgorithmVersion[] = "31";
 
 // The same for masks; it also changes with their conversion.
-inline constexpr char kMaskAlgorithmVersion[] = "31.mask-12";
+inline constexpr char kMaskAlgorithmVersion[] = "31.mask-13";
 
 constexpr const char* AlgorithmVersionOf(ObjectSource source) {
   return source == ObjectSource::kPoints ? kAlgorithmVersion : kMaskAlgorithmVersion;

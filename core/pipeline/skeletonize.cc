@@ -6,11 +6,13 @@
 #include "core/exec/status_macros.h"
 #include "core/exec/stop_poll.h"
 #include "core/pipeline/algorithm_version.h"
+#include "core/pipeline/at_border.h"
 #include "core/pipeline/canonical_options.h"
 #include "core/pipeline/method_in_words.h"
 #include "core/pipeline/skeletonize_within.h"
 #include "core/prepare/beyond_border.h"
 #include "core/prepare/border_cuts.h"
+#include "core/prepare/brick_sets.h"
 #include "core/pruning/point_table.h"
 #include "core/pruning/sheet_pruner.h"
 #include "core/skeleton/center_curves.h"
@@ -57,19 +59,6 @@ absl::Status Certify(const Volume& thin, const exec::Context& context, Certifica
   if (certificate.TopologyKept()) return absl::OkStatus();
   return absl::InternalError("thinning changed the topology: " +
                              DescribeChanges(certificate.input, certificate.skeleton));
-}
-
-Volume PointsOnlyIn(const Volume& more, const Volume& less) {
-  if (more.empty()) return more;
-  VolumeBuilder builder(more.extent(), more.placement());
-  more.ForEachPoint([&](LatticePoint p) {
-    if (!less.Contains(p)) builder.Add(p);
-  });
-  return *std::move(builder).Build();
-}
-
-bool IsConverted(ObjectSource source) {
-  return source == ObjectSource::kVoxels || source == ObjectSource::kRefinedVoxels;
 }
 
 DistanceField NoDistances(DistanceKind kind) {
@@ -199,7 +188,7 @@ class Pipeline {
         skeleton_.points, ThatMayGo(options_), SparedPoints(skeleton_, thinning_), context_);
     result_.timings.certificate = clock_.Lap();
     const std::vector<float> exact = skeleton_.radii;
-    BCCSKEL_ASSIGN_OR_RETURN(skeleton_.radii, StatedRadii(SpaceOf(object), exact));
+    BCCSKEL_ASSIGN_OR_RETURN(skeleton_.radii, StatedRadii(object, exact));
     BCCSKEL_ASSIGN_OR_RETURN(result_.graph, TraceSkeleton(skeleton_, memory_, context_));
     BCCSKEL_RETURN_IF_ERROR(
         MergeJunctions(result_.options.junction_reach, context_, result_.graph));
@@ -213,12 +202,18 @@ class Pipeline {
 
   // The radii stated in the result. Nodes are chosen and junctions merged by these, so that pruning
   // can be repeated from the result alone (ForEachPrunedGraph()).
-  absl::StatusOr<std::vector<float>> StatedRadii(const Volume& space,
+  absl::StatusOr<std::vector<float>> StatedRadii(const Volume& object,
                                                  const std::vector<float>& exact) {
     if (!IsConverted(options_.source)) return exact;
+    const Volume& space = SpaceOf(object);
     if (!search_.has_value()) search_.emplace(space);
-    return MeasureVoxelRadii(space, static_cast<int32_t>(SurfaceStepOf(options_.source)), *search_,
-                             skeleton_.points, exact, context_);
+    const auto voxel_units = static_cast<int32_t>(SurfaceStepOf(options_.source));
+    BCCSKEL_ASSIGN_OR_RETURN(
+        std::vector<float> radii,
+        MeasureVoxelRadii(space, voxel_units, *search_, skeleton_.points, exact, context_));
+    BCCSKEL_RETURN_IF_ERROR(MeasureAtBorder(object, at_border_, voxel_units, skeleton_.points,
+                                            memory_, context_, radii));
+    return radii;
   }
 
   // Curves are centered in discs as wide as the exact radii.
@@ -232,6 +227,7 @@ class Pipeline {
     const bool differ = exact != skeleton_.radii;
     if (differ) SetRadii(exact, skeleton_.points, result_.graph);
     BCCSKEL_RETURN_IF_ERROR(CenterCurves(object, distance, context_, result_.graph));
+    DropShifts(at_border_, result_.graph);
     if (differ) SetRadii(skeleton_.radii, skeleton_.points, result_.graph);
     return absl::OkStatus();
   }
@@ -322,11 +318,13 @@ class Pipeline {
     }
     if (HasCurves(thinning_)) {
       const ExactRadius& single = search_.has_value() ? *search_ : radius;
-      BCCSKEL_ASSIGN_OR_RETURN(ThinSkeleton pruned,
-                               Prune(skeleton_,
-                                     {object, single, SurfaceStepOf(options_.source),
-                                      options_.voxel_slabs, &SpaceOf(object), &cuts_},
-                                     options_.thinning.keep, options_.pruning, context_));
+      BCCSKEL_ASSIGN_OR_RETURN(
+          ThinSkeleton pruned,
+          Prune(skeleton_,
+                {object, single, SurfaceStepOf(options_.source), options_.voxel_slabs,
+                 &SpaceOf(object), ImageThatCuts(object.extent(), options_), &cuts_},
+                options_.thinning.keep, options_.pruning, context_));
+      at_border_ = std::exchange(pruned.at_border, {});
       TakeOver(std::move(pruned));
     }
     const PruningOptions& pruning = result_.options.pruning;
@@ -342,7 +340,7 @@ class Pipeline {
 
   void TakeOver(ThinSkeleton pruned) {
     if (on_points_) {
-      on_points_(result_.last_shell + 1, PointsOnlyIn(skeleton_.points, pruned.points));
+      on_points_(result_.last_shell + 1, Difference(skeleton_.points, pruned.points));
     }
     skeleton_ = std::move(pruned);
   }
@@ -356,8 +354,9 @@ class Pipeline {
   ThinSkeleton skeleton_;
   std::optional<Volume> space_;  // the object in a window, where it continues beyond the border
   BorderCuts cuts_;              // of limbs, at that border
-  ThinningOptions thinning_;     // keeps the middles of these cuts, too
-  std::optional<ExactRadius> search_;  // where radii of voxels are measured
+  std::vector<LatticePoint> at_border_;  // of curves that lead to where the border cuts limbs off
+  ThinningOptions thinning_;             // keeps the middles of these cuts, too
+  std::optional<ExactRadius> search_;    // where radii of voxels are measured
   SkeletonizeResult result_;
 };
 

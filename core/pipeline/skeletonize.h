@@ -38,8 +38,8 @@ int32_t CellsPerVoxel(ObjectSource source);
 // What lies beyond the border of the lattice, or of the image from which it was made. Across an
 // image of one slice objects always continue.
 enum class Border : uint8_t {
-  kEnds,       // background: the object ends there
-  kContinues,  // unknown: a limb that is cut off there runs straight to the border
+  kEnds,  // background; but curves of limbs of masks that are cut off there lead straight to it
+  kContinues,  // unknown: thinning itself leads a limb that is cut off there to the border
   // As kContinues beyond both faces of an image of one slice, background beyond its other borders:
   // what kEnds means for such an image. Only results state it.
   kContinuesAcrossSlice,

@@ -27,6 +27,10 @@ int32_t CellsPerVoxel(ObjectSource source) {
   return source == ObjectSource::kRefinedVoxels ? 2 : 1;
 }
 
+bool IsConverted(ObjectSource source) {
+  return source == ObjectSource::kVoxels || source == ObjectSource::kRefinedVoxels;
+}
+
 std::optional<size_t> AxisOfOneSlice(const LatticeExtent& extent,
                                      const SkeletonizeOptions& options) {
   if (options.source == ObjectSource::kPoints) return std::nullopt;

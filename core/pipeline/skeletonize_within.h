@@ -17,6 +17,9 @@ namespace bccskel {
 // a solid brick at most one.
 inline constexpr uint64_t kBytesPerThinPoint = 576;
 
+// Whether the object is the exact conversion of a mask.
+bool IsConverted(ObjectSource source);
+
 // The axis along which the mask of an object has a single slice, as for a 2-D image. Along this
 // axis the object continues beyond both faces, regardless of SkeletonizeOptions::border, since only
 // its shape within the slice matters. No value for masks of one row, for objects that are not

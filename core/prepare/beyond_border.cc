@@ -18,17 +18,6 @@ constexpr uint64_t kBytesPerBrick = 5120;
 // Memory per other brick: bits and neighbors. The object has distances for them anyway.
 constexpr uint64_t kBytesPerCopiedBrick = 256;
 
-// The known box: the image, extended without limit across the other axes.
-LatticeBox WindowOf(const LatticeExtent& extent, BorderPoints border, const AxesAcross& axes) {
-  constexpr int32_t kBeyondAll = 4 * kMaxExtentCells;
-  const int32_t last = border == BorderPoints::kLastCorners ? 2 : 1;
-  const auto low = [&](size_t axis) { return axes[axis] ? 0 : -kBeyondAll; };
-  const auto high = [&](size_t axis, int32_t cells) {
-    return axes[axis] ? 2 * cells - last : kBeyondAll;
-  };
-  return {{low(0), low(1), low(2)}, {high(0, extent.nx), high(1, extent.ny), high(2, extent.nz)}};
-}
-
 uint64_t PointCountOf(const LatticeExtent& extent, BorderPoints border) {
   if (border == BorderPoints::kLastOfLattice) return extent.PointCount();
   const LatticeExtent corners = extent, voxels = {extent.nx - 1, extent.ny - 1, extent.nz - 1};
@@ -87,6 +76,16 @@ DistanceField CopyPart(const Volume& part, const Volume& whole, const DistanceFi
 }
 
 }  // namespace
+
+LatticeBox WindowOf(const LatticeExtent& extent, BorderPoints border, const AxesAcross& axes) {
+  constexpr int32_t kBeyondAll = 4 * kMaxExtentCells;
+  const int32_t last = border == BorderPoints::kLastCorners ? 2 : 1;
+  const auto low = [&](size_t axis) { return axes[axis] ? 0 : -kBeyondAll; };
+  const auto high = [&](size_t axis, int32_t cells) {
+    return axes[axis] ? 2 * cells - last : kBeyondAll;
+  };
+  return {{low(0), low(1), low(2)}, {high(0, extent.nx), high(1, extent.ny), high(2, extent.nz)}};
+}
 
 absl::StatusOr<DistanceField> MeasureIn(const Volume& space, const Volume& object,
                                         DistanceKind kind, const exec::Context& context) {

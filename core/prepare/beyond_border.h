@@ -19,6 +19,9 @@ enum class BorderPoints : uint8_t { kLastOfLattice, kLastCorners };
 using AxesAcross = std::array<bool, 3>;
 inline constexpr AxesAcross kAllAxes = {true, true, true};
 
+// The box of the image's outermost points, extended without limit across the other axes.
+LatticeBox WindowOf(const LatticeExtent& extent, BorderPoints border, const AxesAcross& axes);
+
 // Returns the object in the window of its image, with the points beyond the border in its own
 // bricks and the adjacent ones. Across the other axes, background lies beyond the border. If the
 // object continues across all axes, an image without background would be infinitely deep, so the

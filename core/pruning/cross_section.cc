@@ -16,16 +16,6 @@ constexpr double kWallMargin = 3;      // plus units: limbs as thick as surface 
 constexpr double kMostThick = 3;   // half-thickness of a wall in radii: beyond, another wall begins
 constexpr double kLeastOn = 0.25;  // a line continues in a wall by at least this many radii
 
-// Half a turn in eight steps: cosine and sine.
-constexpr std::array<std::array<double, 2>, 8> kTurns = {{{1, 0},
-                                                          {0.92387953, 0.38268343},
-                                                          {0.70710678, 0.70710678},
-                                                          {0.38268343, 0.92387953},
-                                                          {0, 1},
-                                                          {-0.38268343, 0.92387953},
-                                                          {-0.70710678, 0.70710678},
-                                                          {-0.92387953, 0.38268343}}};
-
 // Tangents of smaller turns to either side of the widest of these.
 constexpr double kFirstTurn = 0.2, kLeastTurn = 0.01;
 
@@ -154,8 +144,6 @@ bool CrossSections::GoOnInWall(Front& front, double out, double radius) {
   return true;
 }
 
-// How far the object extends, up to `reach`, in whole lattice units. Skips single missing points,
-// which are noise. Needs: it extends to `start`, a whole number.
 double CrossSections::WayOut(const Coordinates& from, const Coordinates& way, double start,
                              double reach) {
   double out = start;

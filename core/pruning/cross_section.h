@@ -1,10 +1,22 @@
 #ifndef BCCSKEL_CORE_PRUNING_CROSS_SECTION_H_
 #define BCCSKEL_CORE_PRUNING_CROSS_SECTION_H_
 
+#include <array>
+
 #include "core/distance/places.h"
 #include "core/volume/volume.h"
 
 namespace bccskel {
+
+// Half a turn in eight steps: cosine and sine.
+inline constexpr std::array<std::array<double, 2>, 8> kTurns = {{{1, 0},
+                                                                 {0.92387953, 0.38268343},
+                                                                 {0.70710678, 0.70710678},
+                                                                 {0.38268343, 0.92387953},
+                                                                 {0, 1},
+                                                                 {-0.38268343, 0.92387953},
+                                                                 {-0.70710678, 0.70710678},
+                                                                 {-0.92387953, 0.38268343}}};
 
 // A cross-section of the object at a point of a branch. All lengths are in lattice units.
 struct CrossSection {
@@ -35,6 +47,9 @@ class CrossSections {
   // is as wide as the limb on the other side. At most `reach`, which is at least `radius`.
   double NarrowerSide(const Coordinates& middle, const Coordinates& way, double radius,
                       double reach);
+  // How far the object extends, up to `reach`, in whole lattice units. Skips single missing points,
+  // which are noise. Needs: it extends to `start`, a whole number.
+  double WayOut(const Coordinates& from, const Coordinates& way, double start, double reach);
   // The radius of the inscribed circle of a refined section, at most its half-width.
   double Inscribed(CrossSection& section);
 
@@ -54,8 +69,6 @@ class CrossSections {
   static Front FrontOf(const CrossSection& section, const Coordinates& way);
   double WayInWall(Front front, double radius, double reach);
   bool GoOnInWall(Front& front, double out, double radius);
-  double WayOut(const Coordinates& from, const Coordinates& way, double start, double reach);
-
   const AxisScale scale_;
   NearbyBricks bricks_;
 };

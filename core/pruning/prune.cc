@@ -185,16 +185,17 @@ absl::StatusOr<ThinSkeleton> Prune(const ThinSkeleton& curves, const PrunedObjec
   };
   PointSet stay = kept;
   if (in.cuts != nullptr) stay.insert(in.cuts->middles.begin(), in.cuts->middles.end());
-  absl::Status placed;
+  absl::StatusOr<std::vector<LatticePoint>> at_border = std::vector<LatticePoint>();
   const auto place_tips = [&](const exec::Context& own) {
     if (!depths.has_value()) return;
-    placed = PlaceTips(set, in.object, in.radius, *depths, stay, noise, turned, own);
+    at_border = PlaceTips(set, in.object, in.radius, *depths, stay, noise, turned, in.image, own);
   };
   RunBoth(find_levels, place_tips, context.WorkersFor(set.Ends().size(), Significance::kWork),
           context);
-  if (!placed.ok()) return placed;
+  if (!at_border.ok()) return at_border.status();
   if (absl::Status stop = context.StopStatus(); !stop.ok()) return stop;
   ThinSkeleton pruned = set.ToSkeleton(curves);
+  pruned.at_border = *std::move(at_border);
   pruned.levels.reserve(pruned.radii.size());
   pruned.points.ForEachPoint([&](LatticePoint p) {
     const double* level = levels.Find(p);

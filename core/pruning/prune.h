@@ -2,6 +2,7 @@
 #define BCCSKEL_CORE_PRUNING_PRUNE_H_
 
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "absl/status/status.h"
@@ -63,6 +64,9 @@ struct PrunedObject {
   // measured in `object`, so that they end where the object is cut off: otherwise a thin stack
   // would seem wide beyond its faces.
   const Volume* space = nullptr;
+  // The box of the outermost points of the image whose border cuts limbs off; none: there is no
+  // image, or it continues beyond its border.
+  std::optional<LatticeBox> image = std::nullopt;
   const BorderCuts* cuts = nullptr;  // their middles are points to keep; null: none
 };
 

@@ -30,6 +30,7 @@ class ThinSet {
   // Empty or incomplete if the context requests a stop.
   explicit ThinSet(const ThinSkeleton& skeleton, const exec::Context& context = {});
 
+  const AxisScale& scale() const { return scale_; }
   bool Contains(LatticePoint p) const { return points_.Find(p) != nullptr; }
   // Need: p is in the set.
   float RadiusOf(LatticePoint p) const { return points_.Find(p)->radius; }

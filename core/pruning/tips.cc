@@ -8,6 +8,7 @@
 
 #include "core/distance/places.h"
 #include "core/pruning/ball_index.h"
+#include "core/pruning/border_tips.h"
 #include "core/pruning/branch_walk.h"
 #include "core/pruning/bumps.h"
 #include "core/pruning/cross_section.h"
@@ -34,16 +35,14 @@ constexpr double kGrowthMargin = 6;    // plus lattice units
 constexpr double kLongStep = 2;        // from this step on by one radius only: caps are too coarse
 constexpr double kOffArc = 0.25;  // largest distance of points from a limb's arc, in its height
 constexpr double kOffArcAtRoot = kOffArc / 2;  // the same where the arc begins at the root
-// In radii: half-widths across a disc's rib and across its shaft, so far before the disc.
-constexpr double kWide = 1.8, kRound = 1.5, kBeforeDisc = 3;
-constexpr double kLimbAfterFlat = 0.95;  // least significance; corners of strips reach 0.9
+constexpr double kLimbAfterFlat = 0.95;        // least significance; corners of strips reach 0.9
 constexpr double kPointed = 0.7;  // largest radius at the end of a pointed limb, in its root's
 
 class TipPlacer {
  public:
   TipPlacer(ThinSet& set, const Volume& object, const ExactRadius& radius, TipDepths& depths,
             const PointSet& keep, const SurfaceNoise& noise, const TurnedTips& turned,
-            const exec::Context& context)
+            const std::optional<LatticeBox>& image, const exec::Context& context)
       : set_(set),
         bricks_(object),
         bumps_(bricks_),
@@ -59,12 +58,15 @@ class TipPlacer {
         scale_(AxisScaleOf(object.placement())),
         step_(std::ranges::max(scale_)),
         least_gain_(kGainBySteps * noise.step + kGainByNoise * noise.thin),
-        noise_(noise) {}
+        noise_(noise) {
+    if (image.has_value()) border_tips_.emplace(object, *image);
+  }
 
   void Place(LatticePoint end) {
     if (!set_.Contains(end) || !set_.IsEnd(end)) return;
     FreeBranch branch = BranchFrom(set_, end);
     FindRoot(branch);
+    if (LeadToBorder(branch)) return;
     CutTurned(branch, &TurnedTips::Tip::is_rib);
     if (CutFlat(branch)) return;
     CutTurned(branch, &TurnedTips::Tip::in_cap);
@@ -79,6 +81,8 @@ class TipPlacer {
     CutAfter(SafestFrom(GrowAnew(first)));
     MeasureGrown();
   }
+
+  std::vector<LatticePoint> TakeAtBorder() && { return std::move(at_border_); }
 
  private:
   // Finds where the limb begins, by its largest run: no tip lies before that.
@@ -114,29 +118,24 @@ class TipPlacer {
     if (turned == nullptr || !(turned->*kind)) return;
     const auto is_kept = [&](LatticePoint p) { return keep_.contains(p); };
     if (std::ranges::any_of(turned->points, is_kept)) return;
-    if (kind == &TurnedTips::Tip::is_rib && !LiesInDisc(turned->points, branch)) return;
+    if (kind == &TurnedTips::Tip::is_rib &&
+        !LiesInDisc(turned->points, branch.points, set_, sections_, noise_))
+      return;
     for (LatticePoint p : turned->points) set_.Remove(p);
     branch = BranchFrom(set_, branch.points[turned->points.size()]);
     FindRoot(branch);
   }
 
-  // Whether the object is wide across the rib, at the end of a limb that is not, and no noise.
-  bool LiesInDisc(std::span<const LatticePoint> rib, const FreeBranch& branch) {
-    const auto limb = std::span(branch.points).subspan(rib.size());  // from the fork
-    const double radius = set_.RadiusOf(limb[0]);
-    if (set_.Between(limb[0], rib[0]) < radius + noise_.At(radius)) return false;
-    const auto before = std::ranges::find_if(
-        limb, [&](LatticePoint p) { return set_.Between(p, limb[0]) >= kBeforeDisc * radius; });
-    return before != limb.end() && WidthAt(*before, set_.Way(*before, limb[0])) <= kRound &&
-           WidthAt(rib[rib.size() / 2], set_.Way(limb[0], rib[0])) >= kWide;
-  }
-
-  // The half-width across a direction, in radii.
-  double WidthAt(LatticePoint p, const Coordinates& way) {
-    const double radius = set_.RadiusOf(p), reach = 2 * kWide * radius;
-    CrossSection section = sections_.Across(PlaceOf(p, scale_), Unit(way), radius, reach);
-    sections_.Refine(reach, section);
-    return section.half_width / radius;
+  // Leads the curve of a limb that the border of the image cuts off to the middle of its cut.
+  bool LeadToBorder(const FreeBranch& branch) {
+    if (!border_tips_.has_value()) return false;
+    path_.assign(branch.points.rbegin(), branch.points.rend());
+    const std::optional<BorderTips::Way> way = border_tips_->WayOf(path_, set_);
+    if (!way.has_value() || !GrowFrom(way->from, way->places)) return false;
+    at_border_.insert(at_border_.end(), path_.begin() + static_cast<std::ptrdiff_t>(way->from) + 1,
+                      path_.end());
+    MeasureGrown();
+    return true;
   }
 
   // In flat limbs the distance to the background does not show where the limb ends.
@@ -148,7 +147,7 @@ class TipPlacer {
     if (!tip.has_value() || (!tip->middle.empty() && IsLimbAfter(NearestTo(tip->middle.back())))) {
       return false;
     }
-    if (!GrowInFlat(*tip)) {
+    if (tip->middle.size() < 2 || !GrowFrom(tip->from, tip->middle)) {
       if (IsLimbAfter(tip->last)) return false;
       CutAfter(tip->last);
     }
@@ -171,16 +170,16 @@ class TipPlacer {
     return static_cast<size_t>(std::ranges::min_element(path_, {}, square) - path_.begin());
   }
 
-  // Returns whether the limb grew along its middle; otherwise nothing changed.
-  bool GrowInFlat(const FlatEnd::Tip& tip) {
-    const auto behind = std::span(path_).subspan(tip.from + 1);
+  // Returns whether the limb grew along these places; otherwise nothing changed.
+  bool GrowFrom(size_t from, std::span<const Coordinates> places) {
+    const auto behind = std::span(path_).subspan(from + 1);
     const auto is_kept = [&](LatticePoint p) { return keep_.contains(p); };
-    if (tip.middle.size() < 2 || std::ranges::any_of(behind, is_kept)) return false;
+    if (std::ranges::any_of(behind, is_kept)) return false;
     balls_.SetOwn(own_);
     const auto may_add = [&](LatticePoint p) {
       return bricks_.Contains(p) && !IsInBallOfAnother(p);
     };
-    return GrowAlong(tip.middle, tip.from, may_add, path_, set_);
+    return GrowAlong(places, from, may_add, path_, set_);
   }
 
   double Along(LatticePoint p) const { return Dot(direction_, set_.Way(origin_, p)); }
@@ -354,6 +353,7 @@ class TipPlacer {
   CrossSections sections_;
   FlatEnd flat_;
   LastLimb last_limb_;
+  std::optional<BorderTips> border_tips_;
   const PointSet& keep_;
   const TurnedTips& turned_;
   BallIndex balls_;
@@ -372,21 +372,23 @@ class TipPlacer {
   LatticePoint ridge_end_;          // the last point that is certainly on the ridge
   WayOn way_on_;                    // from there
   std::vector<LatticePoint> path_;  // from the anchor, which is not part of it, to the tip
+  std::vector<LatticePoint> at_border_;
 };
 
 }  // namespace
 
-absl::Status PlaceTips(ThinSet& set, const Volume& object, const ExactRadius& radius,
-                       TipDepths& depths, const PointSet& keep, const SurfaceNoise& noise,
-                       const TurnedTips& turned, const exec::Context& context) {
-  const std::vector<LatticePoint> ends = set.Ends();
-  if (ends.empty()) return absl::OkStatus();
-  TipPlacer placer(set, object, radius, depths, keep, noise, turned, context);
-  for (LatticePoint end : ends) {
+absl::StatusOr<std::vector<LatticePoint>> PlaceTips(ThinSet& set, const Volume& object,
+                                                    const ExactRadius& radius, TipDepths& depths,
+                                                    const PointSet& keep, const SurfaceNoise& noise,
+                                                    const TurnedTips& turned,
+                                                    const std::optional<LatticeBox>& image,
+                                                    const exec::Context& context) {
+  TipPlacer placer(set, object, radius, depths, keep, noise, turned, image, context);
+  for (LatticePoint end : set.Ends()) {
     if (context.ShouldStop()) return context.StopStatus();
     placer.Place(end);
   }
-  return absl::OkStatus();
+  return std::move(placer).TakeAtBorder();
 }
 
 }  // namespace bccskel

@@ -1,7 +1,10 @@
 #ifndef BCCSKEL_CORE_PRUNING_TIPS_H_
 #define BCCSKEL_CORE_PRUNING_TIPS_H_
 
-#include "absl/status/status.h"
+#include <optional>
+#include <vector>
+
+#include "absl/status/statusor.h"
 #include "core/distance/exact_radius.h"
 #include "core/exec/context.h"
 #include "core/pruning/firm_depth.h"
@@ -21,11 +24,16 @@ namespace bccskel {
 // twice as long as along another), and not into the ball of another branch. Points of `keep` are
 // not cut off. Ends that turn aside are removed first from limbs that are not flat (TurnedTips).
 // Needs:  `radius` belongs to `object`; `depths` belong to the object, or to the object with points
-//         beyond its border, into which no tip grows; `noise` is that of its surface.
+//         beyond its border, into which no tip grows; `noise` is that of its surface; `image` is
+//         the box of the image whose border cuts limbs off (BorderTips), or none.
+// Returns the points of curves that were led to the middles of such cuts.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
-absl::Status PlaceTips(ThinSet& set, const Volume& object, const ExactRadius& radius,
-                       TipDepths& depths, const PointSet& keep, const SurfaceNoise& noise,
-                       const TurnedTips& turned, const exec::Context& context);
+absl::StatusOr<std::vector<LatticePoint>> PlaceTips(ThinSet& set, const Volume& object,
+                                                    const ExactRadius& radius, TipDepths& depths,
+                                                    const PointSet& keep, const SurfaceNoise& noise,
+                                                    const TurnedTips& turned,
+                                                    const std::optional<LatticeBox>& image,
+                                                    const exec::Context& context);
 
 }  // namespace bccskel
 

@@ -16,7 +16,9 @@ constexpr double kShortest = 1.2;   // the same of ribs
 constexpr double kBack = -0.1;      // cosine of 96 degrees, for ribs
 constexpr double kLimbRadii = 2;    // least length of the limb, in radii of the fork
 constexpr double kLimbWorth = 2;    // least worth of a free limb, in worths of the other arm
-constexpr double kTwin = 1.15;      // largest worth of a tip that turns aside, in thresholds
+// In radii: half-widths across a disc's rib and across its shaft, so far before the disc.
+constexpr double kWide = 1.8, kRound = 1.5, kBeforeDisc = 3;
+constexpr double kTwin = 1.15;  // largest worth of a tip that turns aside, in thresholds
 
 // A curve that leads away from a fork.
 struct Arm {
@@ -51,6 +53,15 @@ std::optional<Coordinates> WayOfLimb(const ThinSet& set, const Arm& limb, Lattic
     if (set.Between(p, fork) >= far) return set.Way(p, fork);
   }
   return std::nullopt;
+}
+
+// The half-width across a direction, in radii.
+double WidthAt(LatticePoint p, const Coordinates& way, const ThinSet& set,
+               CrossSections& sections) {
+  const double radius = set.RadiusOf(p), reach = 2 * kWide * radius;
+  CrossSection section = sections.Across(PlaceOf(p, set.scale()), Unit(way), radius, reach);
+  sections.Refine(reach, section);
+  return section.half_width / radius;
 }
 
 }  // namespace
@@ -101,6 +112,18 @@ const TurnedTips::Tip* TurnedTips::At(std::span<const LatticePoint> branch) cons
     if (fits && std::ranges::equal(tip.points, branch.first(size))) longest = &tip;
   }
   return longest;
+}
+
+bool LiesInDisc(std::span<const LatticePoint> rib, std::span<const LatticePoint> branch,
+                const ThinSet& set, CrossSections& sections, const SurfaceNoise& noise) {
+  const auto limb = branch.subspan(rib.size());  // from the fork
+  const double radius = set.RadiusOf(limb[0]);
+  if (set.Between(limb[0], rib[0]) < radius + noise.At(radius)) return false;
+  const auto before = std::ranges::find_if(
+      limb, [&](LatticePoint p) { return set.Between(p, limb[0]) >= kBeforeDisc * radius; });
+  return before != limb.end() &&
+         WidthAt(*before, set.Way(*before, limb[0]), set, sections) <= kRound &&
+         WidthAt(rib[rib.size() / 2], set.Way(limb[0], rib[0]), set, sections) >= kWide;
 }
 
 }  // namespace bccskel

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "core/pruning/branch_walk.h"
+#include "core/pruning/cross_section.h"
+#include "core/pruning/surface_noise.h"
 #include "core/pruning/thin_set.h"
 
 namespace bccskel {
@@ -50,6 +52,11 @@ class TurnedTips {
  private:
   std::map<LatticePoint, std::vector<Tip>> tips_;  // by the end
 };
+
+// Whether the object is wide across the rib, at the end of a limb that is not, and no noise.
+// Needs: `branch` begins with the points of the rib.
+bool LiesInDisc(std::span<const LatticePoint> rib, std::span<const LatticePoint> branch,
+                const ThinSet& set, CrossSections& sections, const SurfaceNoise& noise);
 
 }  // namespace bccskel
 

@@ -24,6 +24,8 @@ struct ThinSkeleton {
   // is never removed; kNoLevel for points at junctions and those added by growing tips. Empty if
   // branches were not pruned.
   std::vector<double> levels = {};
+  // Some of the points: of curves led to the middle of a cut at the border of the image.
+  std::vector<LatticePoint> at_border = {};
 };
 
 }  // namespace bccskel

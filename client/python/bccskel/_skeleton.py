@@ -301,7 +301,7 @@ class Skeleton:
 
         >>> import numpy as np, bccskel
         >>> int((bccskel.skeletonize(np.ones((5, 5, 40))).curve_image() > 0).sum())
-        36
+        40
         """
         return self._of_axes(self._outcome.curve_image())
 

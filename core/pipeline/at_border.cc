@@ -1,0 +1,58 @@
+#include "core/pipeline/at_border.h"
+
+#include <unordered_map>
+#include <unordered_set>
+
+#include "core/distance/exact_radius.h"
+#include "core/exec/status_macros.h"
+#include "core/lattice/lattice_point_hash.h"
+#include "core/pipeline/skeletonize_within.h"
+#include "core/prepare/beyond_border.h"
+#include "core/skeleton/voxel_radii.h"
+
+namespace bccskel {
+
+std::optional<LatticeBox> ImageThatCuts(const LatticeExtent& extent,
+                                        const SkeletonizeOptions& options) {
+  if (options.border == Border::kContinues || !IsConverted(options.source)) return std::nullopt;
+  AxesAcross axes = kAllAxes;
+  if (const auto slice = AxisOfOneSlice(extent, options)) axes[*slice] = false;
+  return WindowOf(extent, BorderPoints::kLastCorners, axes);
+}
+
+absl::Status MeasureAtBorder(const Volume& object, std::span<const LatticePoint> at_border,
+                             int32_t voxel_units, const Volume& thin, exec::MemoryBudget& memory,
+                             const exec::Context& context, std::vector<float>& radii) {
+  if (at_border.empty()) return absl::OkStatus();
+  BCCSKEL_ASSIGN_OR_RETURN(
+      const Volume space,
+      ContinueBeyondBorder(object, BorderPoints::kLastCorners, kAllAxes, memory));
+  VolumeBuilder builder(object.extent(), object.placement());
+  for (LatticePoint p : at_border) builder.Add(p);
+  BCCSKEL_ASSIGN_OR_RETURN(const Volume points, std::move(builder).Build());
+  const ExactRadius search(space);
+  BCCSKEL_ASSIGN_OR_RETURN(const std::vector<float> exact, ExactRadii(points, search, context));
+  BCCSKEL_ASSIGN_OR_RETURN(const std::vector<float> stated,
+                           MeasureVoxelRadii(space, voxel_units, search, points, exact, context));
+  std::unordered_map<LatticePoint, float, LatticePointHash> by_point;
+  size_t n = 0;
+  points.ForEachPoint([&](LatticePoint p) { by_point.emplace(p, stated[n++]); });
+  n = 0;
+  thin.ForEachPoint([&](LatticePoint p) {
+    const auto found = by_point.find(p);
+    if (found != by_point.end()) radii[n] = found->second;
+    ++n;
+  });
+  return absl::OkStatus();
+}
+
+void DropShifts(std::span<const LatticePoint> at_border, SkeletonGraph& graph) {
+  if (at_border.empty()) return;
+  const std::unordered_set<LatticePoint, LatticePointHash> straight(at_border.begin(),
+                                                                    at_border.end());
+  for (SkeletonPoint& p : graph.points) {
+    if (straight.contains(p.point)) p.shift = {};
+  }
+}
+
+}  // namespace bccskel

@@ -1,0 +1,40 @@
+#ifndef BCCSKEL_CORE_PIPELINE_AT_BORDER_H_
+#define BCCSKEL_CORE_PIPELINE_AT_BORDER_H_
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "core/exec/context.h"
+#include "core/exec/memory_budget.h"
+#include "core/lattice/lattice_point.h"
+#include "core/pipeline/skeletonize.h"
+#include "core/skeleton/skeleton_graph.h"
+#include "core/volume/volume.h"
+
+namespace bccskel {
+
+// The box of the image whose border cuts limbs off: of masks that do not continue beyond it. An
+// image of one slice cuts nothing off across the slice.
+std::optional<LatticeBox> ImageThatCuts(const LatticeExtent& extent,
+                                        const SkeletonizeOptions& options);
+
+// Points of curves that lead to where the border of an image cuts limbs off (BorderTips). The
+// border is no surface of these limbs, although it is background for everything else.
+
+// Sets their radii as if the object continued beyond the border.
+// Shapes: `radii` has one value per point of `thin`, in the order of Volume::ForEachPoint().
+// Needs:  an exact conversion of a mask, whose voxel edge is `voxel_units` lattice units.
+// Errors: of the budget, CANCELLED, DEADLINE_EXCEEDED.
+absl::Status MeasureAtBorder(const Volume& object, std::span<const LatticePoint> at_border,
+                             int32_t voxel_units, const Volume& thin, exec::MemoryBudget& memory,
+                             const exec::Context& context, std::vector<float>& radii);
+
+// Takes back what CenterCurves() did with them: their curves are straight.
+void DropShifts(std::span<const LatticePoint> at_border, SkeletonGraph& graph);
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_PIPELINE_AT_BORDER_H_

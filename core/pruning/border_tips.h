@@ -1,0 +1,71 @@
+#ifndef BCCSKEL_CORE_PRUNING_BORDER_TIPS_H_
+#define BCCSKEL_CORE_PRUNING_BORDER_TIPS_H_
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/distance/places.h"
+#include "core/lattice/lattice_point.h"
+#include "core/pruning/cross_section.h"
+#include "core/pruning/thin_set.h"
+#include "core/volume/volume.h"
+
+namespace bccskel {
+
+// Finds how the curves of limbs that the border of an image cuts off lead straight to the middles
+// of their cuts. Thinning takes the border for the surface, so it ends such a curve where the ball
+// touches the border: a radius before it, and off the middle if the cut is oblique.
+// Threads: one thread per instance.
+class BorderTips {
+ public:
+  struct Way {
+    size_t from = 0;  // position in the path of the point before the first place
+    std::vector<Coordinates> places;
+  };
+
+  // Needs: `object` outlives this. `image` is the box of the image's outermost lattice points.
+  BorderTips(const Volume& object, const LatticeBox& image);
+
+  // The way of a limb whose balls but the last do not touch the border: from the last such ball
+  // straight on. None if the branch ends elsewhere, or if the limb does not continue to the border
+  // in about the same width: a tip or a body that only touches it was not cut off.
+  // Needs: the path ends at an end of `set`, which belongs to the object.
+  std::optional<Way> WayOf(std::span<const LatticePoint> path, const ThinSet& set);
+
+ private:
+  struct Face {
+    size_t axis = 0;
+    int32_t side = 1;  // -1: the low one
+  };
+  // A part of a plane in the object.
+  struct Section {
+    Coordinates middle = {};
+    double area = 0;  // square lattice units
+  };
+
+  struct Limb {
+    size_t from = 0;       // position in the path
+    Section last;          // across the limb there
+    Coordinates way = {};  // toward the border, of length 1
+    double reach = 0;      // of searches for the limb's surface, lattice units
+  };
+
+  double OutFrom(const Coordinates& place, const Face& face) const;
+  Face NearestFace(LatticePoint p) const;
+  std::optional<Section> SectionAt(Coordinates middle, const std::array<Coordinates, 2>& plane,
+                                   double reach);
+  // The limb before its balls touch the face.
+  std::optional<Limb> LimbBefore(const Face& face, std::span<const LatticePoint> path,
+                                 const ThinSet& set);
+  std::optional<Coordinates> MiddleOfCut(const Face& face, const Limb& limb);
+
+  const AxisScale scale_;
+  const Coordinates low_, high_;  // of the image
+  CrossSections sections_;
+};
+
+}  // namespace bccskel
+
+#endif  // BCCSKEL_CORE_PRUNING_BORDER_TIPS_H_
