@@ -21,6 +21,12 @@ constexpr double kPlaceStep = 2, kBeyond = 1;  // units
 constexpr int kRounds = 3;
 constexpr size_t kRays = 2 * kTurns.size();
 
+Coordinates RayIn(const std::array<Coordinates, 2>& plane, size_t n) {
+  const auto& [cosine, sine] = kTurns[n % kTurns.size()];
+  const double sign = n < kTurns.size() ? 1 : -1;
+  return Sum(Sum({0, 0, 0}, sign * cosine, plane[0]), sign * sine, plane[1]);
+}
+
 double RadiusOf(double area) { return std::sqrt(area / std::numbers::pi); }
 
 }  // namespace
@@ -61,9 +67,7 @@ std::optional<BorderTips::Section> BorderTips::SectionAt(Coordinates middle,
     std::array<double, kRays> lengths;
     std::array<Coordinates, kRays> ways;
     for (size_t n = 0; n < kRays; ++n) {
-      const auto& [cosine, sine] = kTurns[n % kTurns.size()];
-      const double sign = n < kTurns.size() ? 1 : -1;
-      ways[n] = Sum(Sum({0, 0, 0}, sign * cosine, plane[0]), sign * sine, plane[1]);
+      ways[n] = RayIn(plane, n);
       lengths[n] = sections_.WayOut(middle, ways[n], 0, most) + 0.5;
       if (lengths[n] >= most) return std::nullopt;
     }
@@ -78,6 +82,23 @@ std::optional<BorderTips::Section> BorderTips::SectionAt(Coordinates middle,
   return section;
 }
 
+bool BorderTips::TouchesAcross(const Face& face, std::span<const LatticePoint> path, size_t n,
+                               const ThinSet& set) {
+  const double radius = set.RadiusOf(path[n]);
+  const double reach = kMostWide * radius + kWideMargin;
+  size_t back = n;
+  while (back > 0 && set.Between(path[back], path[n]) < kBackRadii * radius + kBackMargin) --back;
+  if (back == n) return false;
+  const auto plane = Across(Unit(set.Way(path[back], path[n])));
+  const Coordinates middle = PlaceOf(path[n], scale_);
+  for (size_t ray = 0; ray < kRays; ++ray) {
+    const Coordinates way = RayIn(plane, ray);
+    const double length = sections_.WayOut(middle, way, 0, reach) + 1;
+    if (OutFrom(Sum(middle, length, way), face) <= kTouchMargin) return true;
+  }
+  return false;
+}
+
 std::optional<BorderTips::Limb> BorderTips::LimbBefore(const Face& face,
                                                        std::span<const LatticePoint> path,
                                                        const ThinSet& set) {
@@ -85,6 +106,8 @@ std::optional<BorderTips::Limb> BorderTips::LimbBefore(const Face& face,
   size_t from = path.size() - 1;
   if (out_at(path[from]) > kFarRadii * set.RadiusOf(path[from]) + kTouchMargin) return std::nullopt;
   while (from > 0 && out_at(path[from]) <= set.RadiusOf(path[from]) + kTouchMargin) --from;
+  // Of a wide limb, the border may cut off a part of the section there.
+  while (from > 0 && TouchesAcross(face, path, from, set)) --from;
   const double radius = set.RadiusOf(path[from]);
   const auto length_from = [&](size_t n) { return set.Between(path[n], path[from]); };
   size_t back = from;

@@ -56,6 +56,8 @@ class BorderTips {
   Face NearestFace(LatticePoint p) const;
   std::optional<Section> SectionAt(Coordinates middle, const std::array<Coordinates, 2>& plane,
                                    double reach);
+  bool TouchesAcross(const Face& face, std::span<const LatticePoint> path, size_t n,
+                     const ThinSet& set);
   // The limb before its balls touch the face.
   std::optional<Limb> LimbBefore(const Face& face, std::span<const LatticePoint> path,
                                  const ThinSet& set);

@@ -14,6 +14,7 @@ namespace {
 absl::Status Run(const std::string& name, const std::vector<std::string>& arguments) {
   using namespace bccskel::quality;
   const std::map<std::string, absl::Status (*)(const StudyOptions&)> studies = {
+      {"cut-limbs", StudyCutLimbs},
       {"figures", StudyFigures},
       {"rotations", StudyRotations},
       {"reconstruction", StudyReconstruction},

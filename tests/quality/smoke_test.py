@@ -12,7 +12,7 @@ import tables
 import wild_tables
 
 STUDIES = {"figures": [], "rotations": [], "reconstruction": [],
-           "spine-lengths": [], "thick-slices": [],
+           "spine-lengths": [], "thick-slices": [], "cut-limbs": [],
            "wild": ["--as", "bcc,mask", "--noise", "0,5", "--half", "judge", "--json"]}
 
 MASKS = [{"mask": f"{kind}.nrrd", "kind": kind, "voxels": 1000, "components": 1, "loops": 2, "ends": 3,
@@ -55,17 +55,23 @@ class SmokeTest(unittest.TestCase):
         for row in self.rows["thick-slices"]:
             self.assertEqual(row["wrong"], 0, row)
 
+    def test_limbs_that_the_border_cuts_have_two_ends_at_their_cuts(self):
+        for row in self.rows["cut-limbs"]:
+            self.assertEqual(row["wrong"], 0, row)
+            self.assertLess(row["gap"], 0.6, row)
+
     def test_the_report_has_all_its_tables(self):
         text = "\n".join(tables.report(self.rows["figures"], [], self.rows["rotations"],
                                        self.rows["reconstruction"], [],
                                        wild_tables.report(self.rows["wild"],
                                                           self.rows["spine-lengths"],
-                                                          self.rows["thick-slices"], [], MASKS, [],
+                                                          self.rows["thick-slices"],
+                                                          self.rows["cut-limbs"], [], MASKS, [],
                                                           {words: MASKS for words in
                                                            wild_tables.MASK_OPTIONS})))
         for title in ("Targets", "Against known center lines", "Figure by figure", "Turning",
                       "Thinness", "Reconstruction", "Targets in the wild", "Figures in the wild",
-                      "Thick slices", "Real masks", "Options for real masks"):
+                      "Thick slices", "Limbs that the border cuts", "Real masks", "Options for real masks"):
             self.assertIn(f"## {title}", text)
         self.assertNotIn("nan", text)
 

@@ -25,6 +25,9 @@ absl::Status StudySpineLengths(const StudyOptions& options);
 // Tubes with round caps in random directions, as masks whose slices are 1 to 8 times as thick as
 // voxels are wide: ends, and how far they and the curves are off.
 absl::Status StudyThickSlices(const StudyOptions& options);
+// Straight limbs that the border of an image cuts off, at a slant: how far from the middles of the
+// cuts their curves end.
+absl::Status StudyCutLimbs(const StudyOptions& options);
 // The real masks of the reference data: ends, twigs, redundant length, missed parts.
 absl::Status StudyRealMasks(const StudyOptions& options);
 // The closed meshes of the reference data at several sizes, and turned.

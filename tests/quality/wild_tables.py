@@ -214,9 +214,10 @@ def options_section(masks, changed):
     return ["## Options for real masks", "",
             "Values with the defaults and with the option. A preset may change the topology: it "
             "fills cavities and narrow tunnels and removes small components, so there are fewer "
-            "loops and components. `--border continues` keeps the topology. It is not the "
-            "default, since an object that lies flat along a face of the image gets a curve in "
-            "that face beside its others, which is redundant length.",
+            "loops and components. `--border continues` keeps the topology. It is for stacks "
+            "that show little of their limbs, and not the default, which leads only the curves of "
+            "limbs to the border: an object that lies flat along a face of the image would get a "
+            "curve in that face beside its others, which is redundant length.",
             "",
             *table(["option", "mask", "components", "loops", "free ends", "branches", "twigs",
                     "missed parts", "redundant length"], rows)]
@@ -234,9 +235,22 @@ def slices_section(slices):
                     "largest gap", "narrow ends", "off the middle"], rows)]
 
 
-def report(wild, lengths, slices, meshes, masks, others, changed):
+def cuts_section(cuts):
+    rows = [[f"{r['width']:g}:1", f"{r['radius']:g}", r["degrees"], r["limbs"], r["wrong"],
+             f"{r['gap']:.2f}", f"{r['largest_gap']:.2f}", f"{r['end_radius']:.2f}"] for r in cuts]
+    return ["## Limbs that the border cuts", "",
+            "Masks of straight limbs with elliptic sections that the border of the image cuts off "
+            "at both ends, at angles of about so many degrees between the limb and the normal. "
+            "Gap: from the middle of the cut to the nearest end, median and largest; with the "
+            "radius of that end in the median. All lengths in radii of the limb, the radius "
+            "itself in voxels.", "",
+            *table(["section", "radius", "degrees", "limbs", "without two ends", "gap",
+                    "largest gap", "radius of the end"], rows)]
+
+
+def report(wild, lengths, slices, cuts, meshes, masks, others, changed):
     return ["## Targets in the wild", "",
             *table(["what", "target", "measured", "met"],
                    list(target_rows(wild, lengths, meshes, masks))),
-            *figures_section(wild), *slices_section(slices), *meshes_section(meshes),
-            *masks_section(masks, others), *options_section(masks, changed)]
+            *figures_section(wild), *slices_section(slices), *cuts_section(cuts),
+            *meshes_section(meshes), *masks_section(masks, others), *options_section(masks, changed)]
