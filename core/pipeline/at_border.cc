@@ -12,12 +12,19 @@
 
 namespace bccskel {
 
+BorderPoints LastPointsOf(ObjectSource source) {
+  // The lattice of an exact conversion has the corners of the image's last voxels, and a cell of
+  // points beyond them.
+  return IsConverted(source) ? BorderPoints::kLastCorners : BorderPoints::kLastOfLattice;
+}
+
 std::optional<LatticeBox> ImageThatCuts(const LatticeExtent& extent,
                                         const SkeletonizeOptions& options) {
-  if (options.border == Border::kContinues || !IsConverted(options.source)) return std::nullopt;
+  const bool continues = options.border == Border::kContinues;
+  if (!continues && !IsConverted(options.source)) return std::nullopt;
   AxesAcross axes = kAllAxes;
   if (const auto slice = AxisOfOneSlice(extent, options)) axes[*slice] = false;
-  return WindowOf(extent, BorderPoints::kLastCorners, axes);
+  return WindowOf(extent, LastPointsOf(options.source), axes);
 }
 
 absl::Status MeasureAtBorder(const Volume& object, std::span<const LatticePoint> at_border,

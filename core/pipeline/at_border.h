@@ -11,20 +11,24 @@
 #include "core/exec/memory_budget.h"
 #include "core/lattice/lattice_point.h"
 #include "core/pipeline/skeletonize.h"
+#include "core/prepare/beyond_border.h"
 #include "core/skeleton/skeleton_graph.h"
 #include "core/volume/volume.h"
 
 namespace bccskel {
 
-// The box of the image whose border cuts limbs off: of masks that do not continue beyond it. An
-// image of one slice cuts nothing off across the slice.
+// Which points lie on the border of the image.
+BorderPoints LastPointsOf(ObjectSource source);
+
+// The box of the image whose border cuts limbs off: of masks, and of anything that continues beyond
+// it. An image of one slice cuts nothing off across the slice.
 std::optional<LatticeBox> ImageThatCuts(const LatticeExtent& extent,
                                         const SkeletonizeOptions& options);
 
 // Points of curves that lead to where the border of an image cuts limbs off (BorderTips). The
 // border is no surface of these limbs, although it is background for everything else.
 
-// Sets their radii as if the object continued beyond the border.
+// Sets their radii as if the object continued beyond the border. (If it does, they are.)
 // Shapes: `radii` has one value per point of `thin`, in the order of Volume::ForEachPoint().
 // Needs:  an exact conversion of a mask, whose voxel edge is `voxel_units` lattice units.
 // Errors: of the budget, CANCELLED, DEADLINE_EXCEEDED.

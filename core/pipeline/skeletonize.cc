@@ -147,11 +147,8 @@ class Pipeline {
   }
 
   absl::Status ContinueAcross(const AxesAcross& axes, const Volume& object) {
-    // The lattice of an exact conversion has the corners of the image's last voxels, and a cell of
-    // points beyond them.
-    const BorderPoints last =
-        IsConverted(options_.source) ? BorderPoints::kLastCorners : BorderPoints::kLastOfLattice;
-    BCCSKEL_ASSIGN_OR_RETURN(Volume space, ContinueBeyondBorder(object, last, axes, memory_));
+    BCCSKEL_ASSIGN_OR_RETURN(
+        Volume space, ContinueBeyondBorder(object, LastPointsOf(options_.source), axes, memory_));
     if (space.window().has_value()) space_.emplace(std::move(space));
     return absl::OkStatus();
   }
@@ -211,6 +208,7 @@ class Pipeline {
     BCCSKEL_ASSIGN_OR_RETURN(
         std::vector<float> radii,
         MeasureVoxelRadii(space, voxel_units, *search_, skeleton_.points, exact, context_));
+    if (options_.border == Border::kContinues) return radii;
     BCCSKEL_RETURN_IF_ERROR(MeasureAtBorder(object, at_border_, voxel_units, skeleton_.points,
                                             memory_, context_, radii));
     return radii;

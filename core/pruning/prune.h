@@ -64,8 +64,7 @@ struct PrunedObject {
   // measured in `object`, so that they end where the object is cut off: otherwise a thin stack
   // would seem wide beyond its faces.
   const Volume* space = nullptr;
-  // The box of the outermost points of the image whose border cuts limbs off; none: there is no
-  // image, or it continues beyond its border.
+  // The box of the outermost points of the image whose border cuts limbs off; none: no image does.
   std::optional<LatticeBox> image = std::nullopt;
   const BorderCuts* cuts = nullptr;  // their middles are points to keep; null: none
 };
