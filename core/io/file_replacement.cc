@@ -4,8 +4,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <cstddef>
 #include <cstdio>
 #include <filesystem>
 #include <system_error>
@@ -40,6 +42,10 @@ bool IsSpecialFile(const std::string& path) {
   return ::stat(path.c_str(), &about) == 0 && !S_ISREG(about.st_mode) && !S_ISDIR(about.st_mode);
 }
 
+bool IsNameTooLong(const std::string& path) {
+  return ::access(path.c_str(), F_OK) != 0 && errno == ENAMETOOLONG;
+}
+
 // Follows links, so that a link stays and its target is replaced.
 std::string BehindLinks(const std::string& path) {
   std::error_code error;
@@ -48,10 +54,17 @@ std::string BehindLinks(const std::string& path) {
   return error ? path : behind.string();
 }
 
-// Of each replacement another one.
+// Of UTF-8.
+bool IsInsideCharacter(char byte) { return (static_cast<unsigned char>(byte) & 0xC0) == 0x80; }
+
+// Of each replacement another one. The name is cut, so that it fits where that of the file does.
 std::string DraftOf(const std::string& place) {
+  constexpr size_t kMostOfName = 100;
   static std::atomic<int> number = 0;
-  return absl::StrFormat("%s.part%d.%d", place, ::getpid(), number.fetch_add(1));
+  const size_t name = place.rfind('/') + 1;
+  size_t end = std::min(place.size(), name + kMostOfName);
+  while (end < place.size() && IsInsideCharacter(place[end])) --end;
+  return absl::StrFormat("%s.part%d.%d", place.substr(0, end), ::getpid(), number.fetch_add(1));
 }
 
 }  // namespace
@@ -61,6 +74,7 @@ FileReplacement::FileReplacement(std::string place, std::string draft, exec::Des
 
 absl::StatusOr<std::unique_ptr<FileReplacement>> FileReplacement::Begin(const std::string& path) {
   if (IsFolder(path)) return SystemStatus(EISDIR);
+  if (IsNameTooLong(path)) return SystemStatus(ENAMETOOLONG);  // the draft's is shorter
   const bool special = IsSpecialFile(path);
   const std::string place = special ? path : BehindLinks(path);
   const std::string draft = special ? std::string() : DraftOf(place);

@@ -63,6 +63,19 @@ TEST_F(AtomicFileTest, AFolderThatIsNotThereIsNamed) {
   EXPECT_TRUE(absl::IsNotFound(WriteFileAtomically(path, "bytes")));
 }
 
+TEST_F(AtomicFileTest, ANameMayBeAsLongAsTheFileSystemAllows) {
+  const std::string path = folder_ / (std::string(251, 'a') + ".swc");
+  EXPECT_TRUE(CheckWritable(path).ok()) << CheckWritable(path);
+  EXPECT_TRUE(WriteFileAtomically(path, "bytes").ok());
+  EXPECT_EQ(ReadBack(path), "bytes");
+  EXPECT_EQ(folder_.Count(), 1);
+}
+
+TEST_F(AtomicFileTest, ANameThatIsTooLongIsRefusedBeforehand) {
+  EXPECT_FALSE(CheckWritable(folder_ / std::string(256, 'a')).ok());
+  EXPECT_EQ(folder_.Count(), 0);
+}
+
 TEST_F(AtomicFileTest, ALinkStaysALink) {
   ASSERT_TRUE(WriteFileAtomically(folder_ / "file", "old").ok());
   fs::create_symlink("file", folder_ / "link");
