@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "absl/strings/match.h"
 #include "absl/strings/str_join.h"
 #include "client/cli/bench_core.h"
 #include "client/cli/option_values.h"
@@ -153,7 +154,9 @@ void AddOutput(CLI::App& command, std::string& path, const char* what,
   command.add_option("-o,--output", path, std::string(what) + " to write: " + choice)
       ->required()
       ->check([endings, choice](const std::string& given) {
-        const auto fits = [&](const std::string& ending) { return given.ends_with(ending); };
+        const auto fits = [&](const std::string& ending) {
+          return absl::EndsWithIgnoreCase(given, ending);
+        };
         return std::ranges::any_of(endings, fits) ? "" : given + ": does not end in " + choice;
       })
       ->option_text("FILE (required)");

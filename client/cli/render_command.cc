@@ -1,6 +1,7 @@
 #include <tuple>
 #include <utility>
 
+#include "absl/strings/match.h"
 #include "client/cli/arguments.h"
 #include "client/cli/common_options.h"
 #include "client/cli/console.h"
@@ -21,7 +22,9 @@ namespace {
 
 constexpr std::pair kSvgSize = {exporting::kSvgWidth, exporting::kSvgHeight};
 
-bool IsSvg(const RenderArguments& arguments) { return arguments.output.ends_with(".svg"); }
+bool IsSvg(const RenderArguments& arguments) {
+  return absl::EndsWithIgnoreCase(arguments.output, ".svg");
+}
 
 std::string SummaryOf(const RenderArguments& arguments, size_t triangles) {
   view::PictureOptions picture = arguments.picture;

@@ -9,6 +9,7 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "absl/strings/match.h"
 #include "client/cli/arguments.h"
 #include "client/cli/load_object.h"
 #include "client/cli/thinning_options.h"
@@ -67,7 +68,7 @@ absl::Status CheckBorder(const SkeletonizeArguments& arguments) {
 absl::Status CheckImages(const SkeletonizeArguments& arguments) {
   if (!arguments.images.wanted()) return absl::OkStatus();
   for (const std::string& path : {arguments.images.branches, arguments.images.curves}) {
-    if (!path.empty() && !path.ends_with(".nrrd")) {
+    if (!path.empty() && !absl::EndsWithIgnoreCase(path, ".nrrd")) {
       return absl::InvalidArgumentError(path + ": does not end in .nrrd");
     }
     BCCSKEL_RETURN_IF_ERROR(CheckNotInput(arguments.input, path));

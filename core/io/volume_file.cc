@@ -8,9 +8,9 @@
 #include <cerrno>
 #include <memory>
 #include <span>
-#include <string_view>
 #include <vector>
 
+#include "absl/strings/match.h"
 #include "absl/strings/str_format.h"
 #include "core/exec/descriptor.h"
 #include "core/exec/status_macros.h"
@@ -47,12 +47,12 @@ absl::StatusOr<std::span<const std::byte>> ReadSome(const exec::Descriptor& file
   return buffer.first(filled);
 }
 
-absl::StatusOr<EncodeVolumeOptions> EncodingFor(std::string_view path) {
-  if (path.ends_with(".exr")) {
+absl::StatusOr<EncodeVolumeOptions> EncodingFor(const std::string& path) {
+  if (absl::EndsWithIgnoreCase(path, ".exr")) {
     return EncodeVolumeOptions{.encoding = VolumeEncoding::kOpenExr,
                                .compression = VolumeCompression::kZip};
   }
-  if (path.ends_with(".bccb")) {
+  if (absl::EndsWithIgnoreCase(path, ".bccb")) {
     return EncodeVolumeOptions{.encoding = VolumeEncoding::kBricks,
                                .compression = VolumeCompression::kZstd};
   }

@@ -280,6 +280,16 @@ TEST(ArgumentsTest, HelpNamesTheWordsAnOptionTakes) {
   EXPECT_THAT(help, HasSubstr("--progress auto|always|never"));
 }
 
+TEST(ArgumentsTest, EndingsMayBeInCapitals) {
+  for (const char* line :
+       {"view a.json -o a.HTML", "render a.json -o a.PNG", "render a.json -o a.Svg",
+        "reconstruct a.json --object a.off -o a.EXR", "generate ball -o a.BCCB",
+        "skeletonize a.tif -o a.SWC --branch-image a.NRRD"}) {
+    const Parsed parsed = Parse(line);
+    EXPECT_TRUE(std::holds_alternative<Arguments>(parsed.arguments)) << line << ": " << parsed.err;
+  }
+}
+
 TEST(ArgumentsTest, TheInputIsNotOverwritten) {
   const test::TemporaryFolder folder;
   const std::string volume = folder / "a.exr", other = folder / "./a.exr";

@@ -44,7 +44,7 @@ class VolumeFile : public testing::Test {
 
 TEST_F(VolumeFile, ComesBackFromEitherFormat) {
   for (const Volume& volume : EdgeVolumes()) {
-    for (const char* name : {"v.exr", "v.bccb"}) {
+    for (const char* name : {"v.exr", "v.bccb", "v.EXR", "v.Bccb"}) {
       const absl::Status written = WriteVolumeFile(Path(name), volume);
       ASSERT_TRUE(written.ok()) << written;
       const auto back = ReadVolumeFile(Path(name));
