@@ -85,26 +85,65 @@ std::string CommandRequired(const CLI::App& app) {
   return "a command is required: " + absl::StrJoin(CommandsOf(app), ", ");
 }
 
-// The error for an unknown command or option, or for a missing subcommand; empty: neither. CLI11
-// would report a missing argument instead.
-std::string UnknownWord(const CLI::App& app) {
-  const std::vector<std::string> rest = app.remaining(true);
+// The innermost one, as `core` of `bench core`.
+const CLI::App& GivenCommand(const CLI::App& app) {
   const CLI::App* command = &app;
   while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
-  std::vector<std::string> known = CommandsOf(*command);
+  return *command;
+}
+
+// The error for an unknown command or option, or for a missing subcommand; empty: neither. CLI11
+// would report a missing argument instead.
+std::string UnknownWord(const CLI::App& app, const CLI::App& command) {
+  const std::vector<std::string> rest = app.remaining(true);
+  std::vector<std::string> known = CommandsOf(command);
   if (!known.empty() && !rest.empty() && !rest.front().starts_with("-")) {
-    const std::string before = command == &app ? "" : command->get_name() + " ";
+    const std::string before = &command == &app ? "" : command.get_name() + " ";
     return "there is no command " + before + rest.front() + Suggestion(rest.front(), known);
   }
-  if (command == &app) return "";
-  if (!known.empty() && rest.empty()) return CommandRequired(*command);
+  if (&command == &app) return "";
+  if (!known.empty() && rest.empty()) return CommandRequired(command);
   known.clear();
   const auto found = std::ranges::find_if(
       rest, [](const std::string& word) { return word.starts_with("--") && word.size() > 2; });
   if (found == rest.end()) return "";
-  AddOptionNames(*command, known);
+  AddOptionNames(command, known);
   const std::string option = found->substr(0, found->find('='));
-  return command->get_name() + " has no option " + option + Suggestion(option, known);
+  return command.get_name() + " has no option " + option + Suggestion(option, known);
+}
+
+struct Complaint {
+  std::string what;
+  std::string hint;
+};
+
+// About more files than the command takes; nullopt: it has not been given more.
+std::optional<Complaint> TooManyFiles(const CLI::App& app, const CLI::App& command) {
+  std::vector<std::string> rest = app.remaining(true);
+  std::erase_if(rest, [](const std::string& word) { return word.starts_with("-"); });
+  const auto files = command.get_options([](const CLI::Option* o) { return o->get_positional(); });
+  if (rest.empty() || files.empty()) return std::nullopt;
+  const std::string name = files.front()->get_name(true);
+  const std::string what = command.get_name() + " takes one " + name + "; " +
+                           absl::StrJoin(rest, ", ") + (rest.size() == 1 ? " is" : " are") +
+                           " too much";
+  if (rest.size() == 1 && command.get_option_no_throw("--object") != nullptr) {
+    return Complaint{what, "--object " + rest.front() +
+                               " names the mesh, volume or image that the result was made from"};
+  }
+  const bool writes = command.get_option_no_throw("--output") != nullptr;
+  return Complaint{
+      what, "run it once for each " + name + (writes ? ", and write -o before each output" : "")};
+}
+
+Complaint ComplaintAbout(const CLI::App& app, const CLI::Error& error) {
+  const CLI::App& command = GivenCommand(app);
+  std::string what = UnknownWord(app, command);
+  if (what.empty() && dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
+    if (const auto complaint = TooManyFiles(app, command)) return *complaint;
+  }
+  if (what.empty()) what = InWords(error.what());
+  return {what, HintFor(what)};
 }
 
 // `bccskel help COMMAND` is `bccskel COMMAND --help`.
@@ -127,10 +166,9 @@ class CommandLine {
     app_.set_version_flag("--version", "bccskel " + std::string(Version()));
     app_.footer(kFooter);
     app_.failure_message([](const CLI::App* app, const CLI::Error& error) {
-      const std::string unknown = UnknownWord(*app);
-      const std::string what = unknown.empty() ? InWords(error.what()) : unknown;
+      const Complaint complaint = ComplaintAbout(*app, error);
       const std::string name(ProgramName());
-      return name + ": error: " + what + "\n" + name + ": hint: " + HintFor(what) + "\n";
+      return name + ": error: " + complaint.what + "\n" + name + ": hint: " + complaint.hint + "\n";
     });
     for (CLI::App* command : app_.get_subcommands({})) command->footer(kFooter);
   }

@@ -137,6 +137,19 @@ const Wrong kWrong[] = {
     {"standard_input_as_a_result", "convert - -o a.swc", "-: standard input is not read"},
     {"standard_input_as_an_object", "view a.json --object - -o a.html",
      "-: standard input is not read"},
+    {"object_without_its_option", "view a.json b.off -o a.html",
+     "view takes one RESULT; b.off is too much\nbccskel: hint: --object b.off names the mesh, "
+     "volume or image that the result was made from\n"},
+    {"object_without_its_option_in_a_picture", "render -o a.png a.json b.off",
+     "render takes one RESULT; b.off is too much\nbccskel: hint: --object b.off names"},
+    {"second_input", "skeletonize a.off b.off -o a.swc",
+     "skeletonize takes one INPUT; b.off is too much\nbccskel: hint: run it once for each INPUT, "
+     "and write -o before each output\n"},
+    {"output_without_its_option", "convert a.json -o a.swc b.csv c.vtp",
+     "convert takes one RESULT; b.csv, c.vtp are too much\nbccskel: hint: run it once for each "
+     "RESULT, and write -o before each output\n"},
+    {"second_file", "info a.off b.off",
+     "info takes one FILE; b.off is too much\nbccskel: hint: run it once for each FILE\n"},
     {"no_spacing", "voxelize a.off -o a.exr --spacing 0",
      "--spacing: must be finite and positive, not 0"},
     {"endless_spacing", "voxelize a.off -o a.exr --spacing inf",
