@@ -140,14 +140,17 @@ absl::StatusOr<CollectedLabels> CollectLabels(ImageSource& source, const ImageAr
   const MaskGrid grid = GridOf(labels.info);
   BCCSKEL_ASSIGN_OR_RETURN(LabelCollector collector,
                            LabelCollector::Create(grid, {.labels = arguments.labels}));
+  GrayLevels levels(labels.info.size);
   BCCSKEL_RETURN_IF_ERROR(ReadSlices(
       source, grid.VoxelsPerSlice(), context,
       [&](const ImageSlice& slice, std::span<uint64_t> values) {
+        levels.Add(slice);
         labels.not_numbers += CountNotNumbers(slice);
         return LabelSlice(slice, values);
       },
       [&](std::span<const uint64_t> values) { return collector.AddSlice(values, context); }));
   BCCSKEL_ASSIGN_OR_RETURN(labels.objects, std::move(collector).Finish());
+  if (arguments.labels.empty()) labels.gray_threshold = levels.Threshold();
   labels.left_out = std::erase_if(labels.objects.objects, [&](const LabeledObject& object) {
     return object.voxels < min_voxels;
   });

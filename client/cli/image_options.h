@@ -95,6 +95,8 @@ struct CollectedLabels {
   LabeledObjects objects;
   uint64_t left_out = 0;     // labels with too few voxels
   uint64_t not_numbers = 0;  // voxels that are NaN
+  // Otsu's, if all labels are requested, but the values look like gray levels.
+  std::optional<double> gray_threshold = std::nullopt;
 };
 
 // Collects the requested labels with at least `min_voxels` voxels; there may be none.

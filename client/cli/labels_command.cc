@@ -269,6 +269,11 @@ using Clock = std::chrono::steady_clock;
 
 absl::StatusOr<CollectedLabels> Collect(const LabelsArguments& arguments,
                                         const exec::Context& context) {
+  const absl::StatusOr<InputKind> kind = InputKindOf(arguments.input, arguments.image);
+  if (kind.ok() && *kind != InputKind::kImage) {
+    return absl::InvalidArgumentError(absl::StrFormat(
+        "is %s, which has no labels; bccskel skeletonize takes it", InputKindPhrase(*kind)));
+  }
   BCCSKEL_ASSIGN_OR_RETURN(const auto source, OpenImage(arguments.input, arguments.image.open));
   return CollectLabels(*source, arguments.image, arguments.min_voxels, context);
 }
@@ -305,6 +310,12 @@ absl::StatusOr<CollectedLabels> Load(const LabelsArguments& arguments,
     return WithPath(NoLabels(arguments, labels->left_out), arguments.input);
   }
   WarnOfAbsent(arguments, *labels);
+  if (labels->gray_threshold.has_value()) {
+    Warn(absl::StrFormat(
+        "%s: the values look like gray levels, not labels, and each value is an object; bccskel "
+        "skeletonize --threshold %g (Otsu's) takes the brighter voxels for one",
+        arguments.input, *labels->gray_threshold));
+  }
   return labels;
 }
 

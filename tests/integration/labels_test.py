@@ -114,6 +114,25 @@ class LabelsTest(harness.TestCase):
         self.fail_with(8, "cannot create the folder " + self.path("cell-3"), "labels", self.image,
                        "--label", "3", "-o", self.path("cell-{label}/a.swc"))
 
+    def test_gray_levels_are_no_labels(self):
+        gray = numpy.random.default_rng(1).integers(0, 200, (8, 40, 40), "u1")
+        numpy.save(self.path("gray.npy"), gray)
+        warning = "gray.npy: the values look like gray levels, not labels, and each value is an " \
+                  "object; bccskel skeletonize --threshold "
+        done = harness.bccskel("labels", self.path("gray.npy"), "-o", self.path("a.csv"))
+        self.assertIn(warning, done.stderr)
+        for words in (("labels", self.path("gray.npy"), "--label", "7"), ("labels", self.image)):
+            done = harness.bccskel(*words, "-o", self.path("a.csv"))
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_what_is_no_image_has_no_labels(self):
+        mesh = pathlib.Path(self.path("a.off"))
+        mesh.write_text("OFF\n0 0 0\n")
+        self.fail_with(3, "a.off: is a mesh, which has no labels; bccskel skeletonize takes it",
+                       "labels", mesh, "-o", self.path("a.csv"))
+        self.fail_with(3, "is a volume, which has no labels; bccskel skeletonize takes it",
+                       "labels", self.generate("ball"), "-o", self.path("a.csv"))
+
     def test_the_summary_adds_up_what_preparing_did(self):
         labels = numpy.zeros((9, 9, 30), "u1")
         labels[1:8, 1:8, 1:8] = 1
