@@ -5,6 +5,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
 
 namespace bccskel::view {
@@ -54,6 +55,19 @@ std::string InAscii(std::string_view text) {
   return ascii;
 }
 
+// What is wrong with the first character of what should be an object; empty: nothing.
+std::string WrongBeginning(std::string_view text) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // the parser skips it, too
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+  if (text.starts_with('{')) return "";
+  return absl::StrCat(text.empty() ? "it is empty"
+                                   : absl::StrCat("it begins with '",
+                                                  absl::CHexEscape(std::string(text.substr(0, 1))),
+                                                  "', not with '{'"),
+                      "; `bccskel skeletonize` writes one with -o result.json");
+}
+
 // The callbacks of nlohmann's parser, in its spelling; false stops it.
 class Handler {
  public:
@@ -61,6 +75,10 @@ class Handler {
       : text_(text), now_(text.data()), wanted_(wanted), take_(take) {}
 
   absl::Status Run() && {
+    if (const std::string wrong = WrongBeginning(text_); !wrong.empty()) {
+      Fail(wrong);
+      return status_;
+    }
     const TrackedChars begin(text_.data(), &now_), end(text_.data() + text_.size(), &now_);
     Json::sax_parse(begin, end, this);
     return status_;
@@ -130,7 +148,6 @@ class Handler {
     return Add({kind, begin, text.size()});
   }
   bool Add(const JsonEvent& event) {
-    if (depth_ == 0) return Fail("it is not an object");
     if (!wanted_now_) return true;
     value_.events.push_back(event);
     if (depth_ > ItemDepth() || event.kind == Kind::kName) return true;

@@ -119,9 +119,13 @@ TEST(ResultDocumentTest, NamesThePlaceOfADefect) {
     std::string text;
     std::string message;
   } cases[] = {
-      {"", "not a JSON result"},
-      {"[]", "submit: it is not an object"},
-      {"3", "submit: it is not an object"},
+      {"",
+       "not a JSON result of skeletonize or submit: it is empty; `bccskel skeletonize` writes one "
+       "with -o result.json"},
+      {" \n", "submit: it is empty"},
+      {"[]", "submit: it begins with '[', not with '{'; `bccskel skeletonize` writes one"},
+      {" 3", "submit: it begins with '3', not with '{'"},
+      {"v 0 0 0\n", "submit: it begins with 'v', not with '{'"},
       {"{}", "nodes is not there"},
       {R"({"labels":[{"label":1,"skeleton":{}}]})",
        "holds the skeletons of many labels; have `bccskel labels` write the wanted format, or take "
@@ -133,7 +137,7 @@ TEST(ResultDocumentTest, NamesThePlaceOfADefect) {
       {SmallWith("\"length\":2}]",
                  "\"length\":2}],\"sheets\":{\"points\":[[0,0,0]],\"radii\":[-1]}"),
        "sheets.radii[0] is -1, below 0"},
-      {"\x93NUMPY", "last read: '\\x93'"},
+      {"\x93NUMPY", "it begins with '\\x93'"},
       {SmallWith("[1,0.5]", "[1]"), "edges[0] is not an edge with points and as many radii"},
       {SmallWith("\"target\":1", "\"target\":2"), "names node 2; there are 2"},
       {SmallWith("\"target\":1", "\"target\":-1"), "edges[0].target is not an integer in range"},
