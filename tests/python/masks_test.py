@@ -1,6 +1,7 @@
 """Arrays of every kind give the skeleton that the command line makes of the same file."""
 
 import json
+import warnings
 
 import bccskel
 import harness
@@ -162,6 +163,26 @@ class LabelsTest(harness.TestCase):
         self.assertEqual(list(bccskel.skeletonize_labels(image, labels=[1, 5])), [1])
         self.assertEqual(bccskel.skeletonize_labels(image, labels=1, min_voxels=65), {})
         self.assertEqual(bccskel.skeletonize_labels(0 * image), {})
+
+    def test_voxels_that_are_no_labels_are_told(self):
+        image = numpy.ones((4, 4, 4))
+        image[0, 0, :2] = numpy.nan
+        with self.assertWarnsRegex(UserWarning, "^2 voxels are NaN, which counts as background$"):
+            self.assertEqual(bccskel.skeletonize_labels(image)[1].voxels, 62)
+        for nothing in (numpy.zeros((2, 3, 4)), numpy.full((2, 3, 4), numpy.nan)):
+            with self.assertWarnsRegex(UserWarning, "^no voxel has a label: all are 0"):
+                self.assertEqual(bccskel.skeletonize_labels(nothing), {})
+
+    def test_gray_levels_are_no_labels(self):
+        gray = numpy.random.default_rng(1).integers(0, 200, (8, 40, 40), "u1")
+        with self.assertWarnsRegex(UserWarning, "^the values look like gray levels, not labels, and "
+                                   r"each value is an object; skeletonize\(image, threshold="):
+            bccskel.skeletonize_labels(gray)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            bccskel.skeletonize_labels(gray, labels=[7])
+            bccskel.skeletonize_labels(gray, label=7)
+            bccskel.skeletonize_labels(crossing_bars() * 3)
 
     def test_fractions_and_negative_labels_are_refused(self):
         for value in (1.5, -1.0):

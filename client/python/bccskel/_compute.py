@@ -86,6 +86,21 @@ def _mask(server: Any, mask: Any, spacing: Any, origin: Any, direction: Any, axe
                           voxels=True, image=mask))
 
 
+def _warn_of_no_labels(image: np.ndarray, all_wanted: bool) -> None:
+    """Of voxels that are no labels, before the work."""
+    nans = np.count_nonzero(np.isnan(image)) if image.dtype.kind == "f" else 0
+    if nans == image.size or not image.any():
+        warnings.warn(f"no voxel has a label: all are 0{' or NaN' if nans else ''}", stacklevel=4)
+    elif nans:
+        warnings.warn(f"{nans} {'voxel is' if nans == 1 else 'voxels are'} NaN, which counts as "
+                      "background", stacklevel=4)
+    threshold = _native.gray_threshold(image) if all_wanted else None
+    if threshold is not None:
+        warnings.warn("the values look like gray levels, not labels, and each value is an object; "
+                      f"skeletonize(image, threshold={threshold:g}) takes the brighter voxels for "
+                      "one (Otsu's threshold)", stacklevel=4)
+
+
 def _labels(server: Any, image: Any, spacing: Any, origin: Any, direction: Any, axes: str,
             threads: int, timeout: Optional[float], progress: Any,
             options: Mapping[str, Any]) -> dict:
@@ -93,6 +108,8 @@ def _labels(server: Any, image: Any, spacing: Any, origin: Any, direction: Any, 
     frame = _frame(image, axes, spacing, origin, direction)
     texts = texts_of("skeletonize_labels", "labels", options, frame.to_xyz)
     view = frame.zyx(array)
+    wanted = options.get("labels", options.get("label"))
+    _warn_of_no_labels(view, wanted is None)
     if server is not None:
         check_labels(array)
         view = labels_for_sending(view)
@@ -102,8 +119,7 @@ def _labels(server: Any, image: Any, spacing: Any, origin: Any, direction: Any, 
     except ValueError:
         check_labels(array)  # names the voxel in the order of these axes
         raise
-    wanted = np.ravel(options.get("labels"))
-    absent = [label for label in wanted if isinstance(label, (int, np.integer))
+    absent = [label for label in np.ravel(wanted) if isinstance(label, (int, np.integer))
               and int(label) not in outcomes]
     if absent:
         fewer = " or fewer than min_voxels" if options.get("min_voxels") else ""

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstring>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "client/python/native/job.h"
 #include "client/python/native/skeleton_class.h"
 #include "core/exec/status_macros.h"
+#include "core/import/image/gray_levels.h"
 #include "core/import/image/open_image.h"
 #include "core/import/mesh/mesh_file.h"
 #include "core/io/volume_file.h"
@@ -159,6 +161,15 @@ LabelOutcomes Labels(const py::array& array, const Placement& placement, const O
   return RunCall(call, [&](const Run& run) { return SkeletonizeOnServer(image, arguments, run); });
 }
 
+// Otsu's, if the values look like gray levels.
+std::optional<double> GrayThreshold(const py::array& array) {
+  ArraySource source = Value(ArraySource::Create(ViewOf(array), {}));
+  const ImageSize size = source.info().size;
+  GrayLevels levels(size);
+  for (int32_t z = 0; z < size.nz; ++z) levels.Add(Value(source.NextSlice()));
+  return levels.Threshold();
+}
+
 absl::Status ReadInto(ImageSource& source, std::byte* to, const exec::Context& context) {
   for (int32_t z = 0; z < source.info().size.nz; ++z) {
     BCCSKEL_RETURN_IF_ERROR(context.StopStatus());
@@ -269,6 +280,7 @@ void AddFunctions(py::module_& module) {
   module.def("skeletonize_mask", &Mask);
   module.def("skeletonize_mesh", &Mesh);
   module.def("skeletonize_labels", &Labels);
+  module.def("gray_threshold", &GrayThreshold);
   module.def("read_image", &ReadImage);
   module.def("read_mesh", &ReadMesh);
   module.def("read_result", &ReadJson);
