@@ -116,12 +116,18 @@ ExitCode FailWith(ExitCode code, const absl::Status& error) {
 }
 
 ExitCode FailOnServer(const ServerArguments& server, const absl::Status& error,
-                      std::string_view hint) {
+                      std::string_view local) {
   PrintLine("error", "server " + server.address + ": " + std::string(error.message()));
-  if (!hint.empty()) PrintLine("hint", hint);
   if (LacksToken(server, error)) PrintLine("hint", "name the file of your token with --token-file");
   if (MayWantTls(server, error)) {
     PrintLine("hint", "if the server uses TLS, name its certificate authority with --tls-ca");
+  } else if (absl::IsUnavailable(error)) {
+    PrintLine(
+        "hint",
+        local.empty()
+            ? "start bccskel-server, or name another server with --server"
+            : "start bccskel-server, name another server with --server, or compute here with " +
+                  std::string(local));
   }
   return CodeOf(error);
 }

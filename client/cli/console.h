@@ -58,11 +58,9 @@ ExitCode Fail(const absl::Status& error, std::string_view hint = "");
 ExitCode FailWith(ExitCode code, const absl::Status& error);
 
 // For failures between the user and a server, which the message names. A specific hint suggests
-// what may be wrong with the connection.
-inline constexpr std::string_view kNoServerHint =
-    "start bccskel-server, name another server with --server, or compute here with --local";
+// what may be wrong with the connection. `local` says what computes without one, if anything does.
 ExitCode FailOnServer(const ServerArguments& server, const absl::Status& error,
-                      std::string_view hint = "");
+                      std::string_view local = "");
 
 // Prints a command's result. kOutput if standard output cannot be written.
 ExitCode Print(std::string_view text);

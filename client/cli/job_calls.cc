@@ -115,7 +115,7 @@ ExitCode SubmitDetached(const SkeletonizeArguments& arguments, const Volume& obj
   const auto volume = client::EncodeForSending(object, client::BestEncodingOf(object), stop);
   if (!volume.ok()) return Fail(volume.status());
   const absl::StatusOr<client::DurableJob> job = MakeJob(arguments, *volume, stop);
-  if (!job.ok()) return FailOnServer(arguments.server, job.status());
+  if (!job.ok()) return FailOnServer(arguments.server, job.status(), LocalCommand(arguments));
   const bool json = arguments.common.summary == SummaryStyle::kJson;
   return Print((json ? JobJson(*job) : job->name) + "\n");
 }

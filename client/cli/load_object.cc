@@ -342,10 +342,14 @@ absl::StatusOr<Volume> LoadPrepared(const ResultArguments& arguments,
 
 }  // namespace
 
-ExitCode FailComputing(const ComputeArguments& arguments, const absl::Status& error) {
+std::string_view LocalCommand(const SkeletonizeArguments& arguments) {
+  return arguments.accepted == AcceptedInput::kVolumeOnly ? "bccskel skeletonize" : "--local";
+}
+
+ExitCode FailComputing(const ComputeArguments& arguments, const absl::Status& error,
+                       std::string_view local) {
   if (arguments.place != Place::kServer) return Fail(WithPath(error, arguments.input));
-  return FailOnServer(arguments.server, error,
-                      absl::IsUnavailable(error) ? kNoServerHint : std::string_view());
+  return FailOnServer(arguments.server, error, local);
 }
 
 absl::StatusOr<ResultAndObject> LoadResultAndObject(const ResultArguments& arguments,

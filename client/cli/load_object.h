@@ -77,8 +77,12 @@ struct ResultAndObject {
   Volume object;
 };
 
+// What computes on this machine instead of a server.
+std::string_view LocalCommand(const SkeletonizeArguments& arguments);
+
 // Reports why and where computing failed. Returns the exit code.
-ExitCode FailComputing(const ComputeArguments& arguments, const absl::Status& error);
+ExitCode FailComputing(const ComputeArguments& arguments, const absl::Status& error,
+                       std::string_view local = "--local");
 
 // Reads both, each a phase of `bar`, and reproduces the object that was thinned: fills a mesh on a
 // grid of the result's spacing, unless the arguments give another, and repeats the preparation.

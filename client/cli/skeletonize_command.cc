@@ -354,7 +354,7 @@ ExitCode RunWith(const SharedWork* work, const SkeletonizeArguments& given,
     return SubmitDetached(arguments, object->volume, stop);
   }
   absl::StatusOr<Computed> computed = Compute(arguments, object->volume, team.context(), work, bar);
-  if (!computed.ok()) return FailComputing(arguments, computed.status());
+  if (!computed.ok()) return FailComputing(arguments, computed.status(), LocalCommand(arguments));
   SkeletonizeResult* const result = &computed->result;
   const absl::Status rooted = CheckRoot(arguments, result->graph);
   if (!rooted.ok()) return FailWith(ExitCode::kUsage, rooted);

@@ -51,6 +51,19 @@ class ExitCodesTest(harness.TestCase):
             self.generate("ball"), "--server", "unix:/nowhere"))
         self.assertIn("bccskel: hint: start bccskel-server", done.stderr)
 
+    def test_4_tells_what_to_do(self):
+        start = "bccskel: hint: start bccskel-server, or name another server with --server\n"
+        for words in (["probe"], ["jobs"], ["top", "--once"], ["watch", "1"], ["cancel", "1"],
+                      ["delete", "1"], ["fetch", "1", "-o", self.path("out.swc")]):
+            done = self.fail_with(4, "server unix:/nowhere", *words, "--server", "unix:/nowhere")
+            self.assertTrue(done.stderr.endswith(start), done.stderr)
+        volume = self.generate("ball")
+        for words, here in ((self.skeletonize(volume), "--local"),
+                            (("submit", volume, "-o", self.path("a.swc")), "bccskel skeletonize"),
+                            (("submit", volume, "--detach"), "bccskel skeletonize")):
+            done = self.fail_with(4, "nowhere", *words, "--server", "unix:/nowhere")
+            self.assertIn(f"another server with --server, or compute here with {here}\n", done.stderr)
+
     def test_5_when_the_deadline_passes(self):
         volume = self.long_job()
         self.fail_with(5, "deadline", *self.skeletonize(volume, "--local", "--timeout", 0.001))
