@@ -37,6 +37,11 @@ absl::Status CheckNotInput(const std::string& input, const std::string& output) 
   return absl::InvalidArgumentError(output + ": is also the input and would be overwritten");
 }
 
+bool IsGiven(const VoxelizeOptions& grid) {
+  return grid.points.has_value() || grid.spacing.has_value() || grid.fill != FillRule::kAuto ||
+         grid.thin_parts != ThinParts::kKeep || grid.axes != LatticeAxes::kShape;
+}
+
 // Each option about making an object is for one kind of input.
 absl::Status CheckObject(const std::string& input, const VoxelizeOptions& grid,
                          const ImageArguments& image) {
@@ -44,10 +49,7 @@ absl::Status CheckObject(const std::string& input, const VoxelizeOptions& grid,
   const absl::StatusOr<InputKind> kind = InputKindOf(input, image);
   if (!kind.ok()) return absl::OkStatus();
   const std::string is = "; " + input + " is " + std::string(InputKindPhrase(*kind));
-  const bool grid_given = grid.points.has_value() || grid.spacing.has_value() ||
-                          grid.fill != FillRule::kAuto || grid.thin_parts != ThinParts::kKeep ||
-                          grid.axes != LatticeAxes::kShape;
-  if (grid_given && *kind != InputKind::kMesh) {
+  if (IsGiven(grid) && *kind != InputKind::kMesh) {
     return absl::InvalidArgumentError(
         "--points, --spacing, --fill, --thin-parts and --lattice-axes are for meshes" + is);
   }
@@ -123,6 +125,11 @@ absl::Status Validate(const GenerateArguments& arguments) {
 }
 
 absl::Status Validate(const ResultArguments& arguments) {
+  if (arguments.object.empty() && (arguments.image.given || IsGiven(arguments.grid))) {
+    return absl::InvalidArgumentError(
+        "options such as --label, --voxel-size and --points say how the object is read; name it "
+        "with --object");
+  }
   for (const std::string& input : {arguments.result, arguments.object}) {
     BCCSKEL_RETURN_IF_ERROR(CheckNotInput(input, arguments.output));
   }
@@ -185,17 +192,6 @@ absl::Status CheckServer(const Chosen& arguments) {
 }
 
 template <typename Chosen>
-absl::Status CheckInputs(const Chosen& arguments) {
-  std::vector<std::string> paths;
-  if constexpr (requires { arguments.input; }) paths.push_back(arguments.input);
-  if constexpr (requires { arguments.file; }) paths.push_back(arguments.file);
-  if constexpr (requires { arguments.result; }) paths.push_back(arguments.result);
-  if constexpr (requires { arguments.object; }) paths.push_back(arguments.object);
-  if (std::ranges::find(paths, "-") == paths.end()) return absl::OkStatus();
-  return absl::InvalidArgumentError("-: standard input is not read; save it to a file first");
-}
-
-template <typename Chosen>
 std::vector<std::string> OutputsOf(const Chosen& arguments) {
   std::vector<std::string> paths;
   if constexpr (requires { arguments.outputs; }) paths = arguments.outputs;
@@ -206,6 +202,22 @@ std::vector<std::string> OutputsOf(const Chosen& arguments) {
     }
   }
   return paths;
+}
+
+template <typename Chosen>
+absl::Status CheckFileNames(const Chosen& arguments) {
+  std::vector<std::string> paths;
+  if constexpr (requires { arguments.input; }) paths.push_back(arguments.input);
+  if constexpr (requires { arguments.file; }) paths.push_back(arguments.file);
+  if constexpr (requires { arguments.result; }) paths.push_back(arguments.result);
+  if constexpr (requires { arguments.object; }) paths.push_back(arguments.object);
+  if (std::ranges::count(paths, "-") > 0) {
+    return absl::InvalidArgumentError("-: standard input is not read; save it to a file first");
+  }
+  paths = OutputsOf(arguments);
+  if (std::ranges::count(paths, "-") == 0) return absl::OkStatus();
+  return absl::InvalidArgumentError(
+      "-: standard output is not written; name a file, whose ending chooses the format");
 }
 
 template <typename Chosen>
@@ -259,7 +271,7 @@ absl::Status Validate(const Arguments& arguments) {
   BCCSKEL_RETURN_IF_ERROR(
       std::visit([](const auto& chosen) { return CheckServer(chosen); }, arguments));
   BCCSKEL_RETURN_IF_ERROR(
-      std::visit([](const auto& chosen) { return CheckInputs(chosen); }, arguments));
+      std::visit([](const auto& chosen) { return CheckFileNames(chosen); }, arguments));
   BCCSKEL_RETURN_IF_ERROR(
       std::visit([](const auto& chosen) { return Validate(chosen); }, arguments));
   BCCSKEL_RETURN_IF_ERROR(

@@ -217,6 +217,13 @@ const Wrong kWrong[] = {
      "not for --pruning none"},
     {"threshold_0", "skeletonize a.off -o a.swc --pruning-threshold 0",
      "--pruning-threshold: must be above 0, up to 1e9, not 0; --pruning none keeps every branch"},
+    {"label_of_no_object", "render a.json -o a.png --label 3",
+     "options such as --label, --voxel-size and --points say how the object is read; name it with "
+     "--object\n"},
+    {"points_of_no_object", "view a.json -o a.html --points 9k", "name it with --object\n"},
+    {"standard_output", "skeletonize a.off -o -",
+     "-: standard output is not written; name a file, whose ending chooses the format"},
+    {"standard_output_of_labels", "labels a.tif -o -", "-: standard output is not written"},
     {"balls_without_object", "reconstruct a.json -o a.exr", "hint: --object names the mesh"},
     {"unknown_bench", "bench core --shape sofa", "--shape sofa: must be ball"},
     {"unknown_shape", "generate teapot -o a.exr", "hollow-ball"},
