@@ -137,9 +137,11 @@ class RefusalsTest(harness.TestCase):
     def test_no_server(self):
         with self.assertRaisesRegex(TypeError, "a Client holds a connection and cannot be pickled: "):
             pickle.dumps(bccskel.Client("unix:/nowhere"))
-        with self.assertRaises(ConnectionError):
-            bccskel.Client(f"unix:{self.folder}/none").skeletonize(numpy.ones((3, 3, 3)),
-                                                                   timeout=20)
+        for address, hint in ((f"unix:{self.folder}/none", "there$"),
+                              ("127.0.0.1:1", "there; if it wants TLS, give tls= to Client$")):
+            message = f"^server {address}: .*; start bccskel-server {hint}"
+            with self.assertRaisesRegex(ConnectionError, message):
+                bccskel.Client(address).skeletonize(numpy.ones((3, 3, 3)), timeout=20)
 
     def test_tokens(self):
         with self.assertRaisesRegex(ValueError, "token.* tls=.* plaintext_token=True"):

@@ -378,9 +378,10 @@ class Client(_Functions):
                 raise
             raise PermissionError(f"{error}: give it as token= of Client") from None
         except ConnectionError as error:
-            if self._has_tls or self.address.startswith("unix:"):
-                raise
-            raise ConnectionError(f"{error}; a server that wants TLS needs tls= of Client") from None
+            plain = not self._has_tls and not self.address.startswith("unix:")
+            tls = "; if it wants TLS, give tls= to Client" if plain else ""
+            raise ConnectionError(f"server {self.address}: {error}; start bccskel-server there"
+                                  f"{tls}") from None
 
     def describe(self, timeout: float = 10.0) -> dict[str, str]:
         """{'server_version': ..., 'algorithm_version': ...}"""
