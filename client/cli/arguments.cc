@@ -21,6 +21,7 @@
 #include "absl/strings/str_split.h"
 #include "client/cli/console.h"
 #include "client/cli/option_values.h"
+#include "client/export/skeleton_file.h"
 #include "core/version/version.h"
 
 namespace bccskel::cli {
@@ -101,14 +102,18 @@ std::string UnknownWord(const CLI::App& app, const CLI::App& command) {
     const std::string before = &command == &app ? "" : command.get_name() + " ";
     return "there is no command " + before + rest.front() + Suggestion(rest.front(), known);
   }
-  if (&command == &app) return "";
-  if (!known.empty() && rest.empty()) return CommandRequired(command);
+  if (&command != &app && !known.empty() && rest.empty()) return CommandRequired(command);
   known.clear();
-  const auto found = std::ranges::find_if(
-      rest, [](const std::string& word) { return word.starts_with("--") && word.size() > 2; });
+  const auto found = std::ranges::find_if(rest, [](const std::string& word) {
+    return word.starts_with("-") && word != "-" && word != "--";
+  });
   if (found == rest.end()) return "";
   AddOptionNames(command, known);
   const std::string option = found->substr(0, found->find('='));
+  if (std::ranges::count(known, option) > 0) {
+    return option + " stands before its command; write bccskel " + command.get_name() + " " +
+           option;
+  }
   return command.get_name() + " has no option " + option + Suggestion(option, known);
 }
 
@@ -118,9 +123,8 @@ struct Complaint {
 };
 
 // About more files than the command takes; nullopt: it has not been given more.
-std::optional<Complaint> TooManyFiles(const CLI::App& app, const CLI::App& command) {
-  std::vector<std::string> rest = app.remaining(true);
-  std::erase_if(rest, [](const std::string& word) { return word.starts_with("-"); });
+std::optional<Complaint> TooManyFiles(const std::vector<std::string>& rest,
+                                      const CLI::App& command) {
   const auto files = command.get_options([](const CLI::Option* o) { return o->get_positional(); });
   if (rest.empty() || files.empty()) return std::nullopt;
   const std::string name = files.front()->get_name(true);
@@ -138,11 +142,16 @@ std::optional<Complaint> TooManyFiles(const CLI::App& app, const CLI::App& comma
 
 Complaint ComplaintAbout(const CLI::App& app, const CLI::Error& error) {
   const CLI::App& command = GivenCommand(app);
+  const std::vector<std::string> rest = app.remaining(true);
   std::string what = UnknownWord(app, command);
   if (what.empty() && dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
-    if (const auto complaint = TooManyFiles(app, command)) return *complaint;
+    if (const auto complaint = TooManyFiles(rest, command)) return *complaint;
   }
   if (what.empty()) what = InWords(error.what());
+  if (what == "--output is required" && rest.size() == 1 &&
+      exporting::SkeletonFormatOf(rest.front()).ok()) {
+    return {what, "write -o before " + rest.front()};
+  }
   return {what, HintFor(what)};
 }
 
@@ -331,7 +340,11 @@ std::variant<Arguments, ExitCode> ParseArguments(int argc, const char* const* ar
     line.app().parse(std::move(backwards));
   } catch (const CLI::ParseError& error) {
     std::ostringstream out, err;
-    if (line.app().exit(error, out, err) == 0) return Print(out.str());
+    if (line.app().exit(error, out, err) == 0) {
+      const std::string unknown = UnknownWord(line.app(), GivenCommand(line.app()));
+      return line.app().get_subcommands().empty() && !unknown.empty() ? Refuse(unknown)
+                                                                      : Print(out.str());
+    }
     std::fputs(err.str().c_str(), stderr);
     return ExitCode::kUsage;
   }

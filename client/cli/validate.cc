@@ -215,6 +215,12 @@ absl::Status CheckFileNames(const Chosen& arguments) {
     return absl::InvalidArgumentError("-: standard input is not read; save it to a file first");
   }
   paths = OutputsOf(arguments);
+  for (const std::string& path : paths) {
+    if (!path.starts_with('=')) continue;
+    const std::string name = path.substr(1);
+    return absl::InvalidArgumentError(path + ": begins with '='; write -o " + name +
+                                      " or --output=" + name);
+  }
   if (std::ranges::count(paths, "-") == 0) return absl::OkStatus();
   return absl::InvalidArgumentError(
       "-: standard output is not written; name a file, whose ending chooses the format");
