@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <functional>
+#include <initializer_list>
 #include <list>
 #include <map>
 #include <numeric>
@@ -155,6 +156,14 @@ Complaint ComplaintAbout(const CLI::App& app, const CLI::Error& error) {
   return {what, HintFor(what)};
 }
 
+// They run as printed, where the files they name are there.
+std::string ExamplesOf(const std::string& command, std::span<const char* const> examples) {
+  if (examples.empty()) return "";
+  std::string text = "Examples:\n";
+  for (const char* words : examples) text += "  bccskel " + command + " " + words + "\n";
+  return text + "\n";
+}
+
 // `bccskel help COMMAND` is `bccskel COMMAND --help`.
 std::vector<std::string> WithoutHelpCommand(std::vector<std::string> words) {
   if (words.empty() || words.front() != "help") return words;
@@ -179,7 +188,6 @@ class CommandLine {
       const std::string name(ProgramName());
       return name + ": error: " + complaint.what + "\n" + name + ": hint: " + complaint.hint + "\n";
     });
-    for (CLI::App* command : app_.get_subcommands({})) command->footer(kFooter);
   }
 
   CLI::App& app() { return app_; }
@@ -204,26 +212,35 @@ class CommandLine {
   // parse_complete_callback(): CLI11 calls callback() only for those that existed before.
   template <typename T>
   void Add(CLI::App& parent, const char* name, void (*add_options)(CLI::App&, T&),
-           const char* description) {
+           const char* description, std::initializer_list<const char*> examples = {}) {
     CLI::App* command = parent.add_subcommand(name, description);
+    command->footer(ExamplesOf(name, {examples.begin(), examples.end()}) + kFooter);
     const auto add = [=, this] { add_options(*command, std::get<T>(given_.emplace_back(T()))); };
     command->preparse_callback([add](size_t) { add(); });
     option_adders_[command] = add;
   }
 
   void AddCommands() {
-    Add(app_, "skeletonize", AddSkeletonize, "Skeletonize a mesh, a volume or an image");
-    Add(app_, "labels", AddLabels, "Skeletonize each label of an image");
-    Add(app_, "info", AddInfo, "Describe a mesh, a volume or an image");
-    Add(app_, "view", AddView, "Make an interactive HTML page of a result, which needs no network");
-    Add(app_, "render", AddRender, "Draw a PNG picture of a result");
-    Add(app_, "convert", AddConvert, "Write a JSON result in other formats");
+    Add(app_, "skeletonize", AddSkeletonize, "Skeletonize a mesh, a volume or an image",
+        {"model.stl -o model.json -o model.png",
+         "scan.nrrd --label 3 --preset vessels -o vessels.swc"});
+    Add(app_, "labels", AddLabels, "Skeletonize each label of an image",
+        {"cells.nrrd -o \"cell-{label}.swc\" -o cells.csv"});
+    Add(app_, "info", AddInfo, "Describe a mesh, a volume or an image", {"scan.nrrd"});
+    Add(app_, "view", AddView, "Make an interactive HTML page of a result, which needs no network",
+        {"model.json --object model.stl -o model.html"});
+    Add(app_, "render", AddRender, "Draw a PNG picture of a result",
+        {"model.json --object model.stl -o model.png --turn 120"});
+    Add(app_, "convert", AddConvert, "Write a JSON result in other formats",
+        {"model.json -o model.graphml -o model.csv"});
     Add(app_, "reconstruct", AddReconstruct,
-        "Rebuild the object from a result's balls and measure the overlap");
+        "Rebuild the object from a result's balls and measure the overlap",
+        {"model.json --object model.stl -o rebuilt.exr"});
     Add(app_, "voxelize", AddVoxelize,
-        "Fill a mesh or convert an image to a volume of bcc lattice points");
+        "Fill a mesh or convert an image to a volume of bcc lattice points",
+        {"model.stl --points 850k -o model.exr"});
     Add(app_, "submit", AddSubmit, "Skeletonize a volume on a server");
-    Add(app_, "generate", AddGenerate, "Make a test object");
+    Add(app_, "generate", AddGenerate, "Make a test object", {"tree --points 100k -o tree.exr"});
   }
 
   void AddBench() {

@@ -42,6 +42,29 @@ class CommandsTest(harness.TestCase):
                     _, said = client.communicate(timeout=300)
                 self.assertEqual(client.returncode, 0, said)
 
+    def test_examples_of_the_help_run_as_printed(self):
+        corners = ((0, 0, 0), (10, 0, 0), (0, 10, 0), (0, 0, 10))
+        with open(self.path("model.stl"), "w") as file:
+            file.write("solid model\n")
+            for face in ((0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)):
+                file.write("facet normal 0 0 0\nouter loop\n")
+                for n in face:
+                    file.write("vertex {} {} {}\n".format(*corners[n]))
+                file.write("endloop\nendfacet\n")
+            file.write("endsolid model\n")
+        header = b"NRRD0004\ntype: uint8\ndimension: 3\nsizes: 30 9 9\nencoding: raw\n\n"
+        for name in ("scan", "cells"):
+            with open(self.path(name + ".nrrd"), "wb") as file:
+                file.write(header + (bytes(5) + bytes([3]) * 20 + bytes(5)) * 81)
+        for command in ("generate", "skeletonize", "labels", "info", "view", "render", "convert",
+                        "reconstruct", "voxelize"):
+            lines = self.succeed(command, "--help").split("\nExamples:\n")[1].split("\n\n")[0]
+            for line in lines.split("\n"):
+                self.assertTrue(line.startswith(f"  bccskel {command} "), line)
+                done = subprocess.run(f'"{harness.CLIENT}"' + line.replace("  bccskel", "", 1),
+                                      shell=True, cwd=self.folder, capture_output=True, text=True)
+                self.assertEqual(done.returncode, 0, line + "\n" + done.stderr)
+
     def test_voxelize_submit_and_all_outputs(self):
         mesh, volume = self.tetrahedron(), self.path("v.exr")
         text = self.succeed("voxelize", mesh, "--points", 20000, "-o", volume)
