@@ -14,7 +14,8 @@ REFUSED = [
     ("empty.stl", 3, "empty"),
     ("empty.obj", 3, "no triangles"),
     ("header_only.stl", 3, "no triangles"),
-    ("vertices_only.obj", 3, "no triangles"),
+    ("vertices_only.obj", 3,
+     "no triangles (3 vertices): points alone enclose nothing; make a surface of them first"),
     ("truncated_binary.stl", 3, "declares 2208 triangles (110484 bytes) but holds 1103"),
     ("count_lies_4e9.stl", 3, "declares 4294967295 triangles"),
     ("truncated.off", 3, "declares 1106 vertices"),
@@ -34,7 +35,7 @@ REFUSED = [
     ("index_zero.obj", 3, "'0'"),
     ("index_overflow.obj", 3, "'99999999999999999999'"),
     ("random_bytes.ply", 3, "must begin with 'ply'"),
-    ("long_line.obj", 3, "no triangles"),
+    ("long_line.obj", 3, "no triangles (1 vertex):"),
     ("real_elephant-with-holes.off", 3, "not closed (1353 boundary edges"),
 ]
 CAVITY = ("1 cavity leaves a closed surface among the curves, and lengths of branches that meet there "

@@ -57,8 +57,10 @@ absl::Status MeshAssembler::AddStrip(std::span<const int64_t> corners) {
 
 absl::StatusOr<TriangleMesh> MeshAssembler::Finish() && {
   if (mesh_.triangles.empty()) {
-    return absl::InvalidArgumentError(
-        absl::StrFormat("no triangles (%d vertices)", mesh_.vertices.size()));
+    const size_t points = mesh_.vertices.size();
+    return absl::InvalidArgumentError(absl::StrFormat(
+        "no triangles (%d %s)%s", points, points == 1 ? "vertex" : "vertices",
+        points == 0 ? "" : ": points alone enclose nothing; make a surface of them first"));
   }
   for (size_t n = 0; n < mesh_.triangles.size(); ++n) {
     const uint32_t largest = std::ranges::max(mesh_.triangles[n]);
