@@ -360,6 +360,8 @@ class CommandsTest(unittest.TestCase):
             self.assertEqual(command("probe", "--server", server.address, *service).returncode, 0)
             unknown = command("probe", "--server", server.address, "--service", "no.such.Service")
             self.assertEqual(unknown.returncode, 3)
+            self.assertIn(": it has no service no.such.Service; without --service, probe asks for "
+                          "the whole server", unknown.stderr)
             self.assertEqual(server.stop(), 0)
             self.assertEqual(command("probe", "--server", server.address).returncode, 4)
 
