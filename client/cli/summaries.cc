@@ -215,7 +215,7 @@ std::string ImagePhrase(const ImageStage& image) {
   Text text;
   text.Add(image.info.format, ", ");
   AddGrid(text, image.info);
-  text.Add(", ", GroupedDigits(image.voxels), " voxels");
+  text.Add(", ", Counted(image.voxels, "voxel", "voxels"));
   return std::move(text).Take();
 }
 
@@ -229,7 +229,7 @@ std::string ImageText(const ImageStage& image) {
            placement.spacing[2], info.unit.empty() ? "" : " ", info.unit, '\n');
   text.Add("origin:      ", placement.origin[0], ' ', placement.origin[1], ' ', placement.origin[2],
            info.world.empty() ? "" : " ", info.world, '\n', DirectionLine(placement));
-  text.Add("foreground:  ", GroupedDigits(image.voxels), " voxels\n");
+  text.Add("foreground:  ", Counted(image.voxels, "voxel", "voxels"), '\n');
   text.Add("topology:    ", exporting::BettiPhrase(image.mask), '\n');
   return std::move(text).Take();
 }

@@ -228,6 +228,14 @@ class ImagesTest(harness.TestCase):
         self.assertEqual(warning, "the object fills the whole image; --threshold or --below selects "
                                   "a part of it")
 
+    def test_one_voxel_is_in_the_singular(self):
+        one = numpy.zeros((3, 3, 3), "u1")
+        one[1, 1, 1] = 1
+        numpy.save(self.path("one.npy"), one)
+        self.assertIn("foreground:  1 voxel\n", self.succeed("info", self.path("one.npy")))
+        self.assertIn(" uint8, 1 voxel\n", self.succeed("skeletonize", self.path("one.npy"),
+                                                        "--local", "-o", self.path("a.swc")))
+
     def test_voxels_that_are_no_numbers_are_counted_in_a_warning(self):
         image = ring().astype("f4")
         image[0, 0, :2] = numpy.nan
