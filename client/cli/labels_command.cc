@@ -269,10 +269,10 @@ using Clock = std::chrono::steady_clock;
 
 absl::StatusOr<CollectedLabels> Collect(const LabelsArguments& arguments,
                                         const exec::Context& context) {
-  const absl::StatusOr<InputKind> kind = InputKindOf(arguments.input, arguments.image);
-  if (kind.ok() && *kind != InputKind::kImage) {
+  BCCSKEL_ASSIGN_OR_RETURN(const InputKind kind, InputKindOf(arguments.input, arguments.image));
+  if (kind != InputKind::kImage) {
     return absl::InvalidArgumentError(absl::StrFormat(
-        "is %s, which has no labels; bccskel skeletonize takes it", InputKindPhrase(*kind)));
+        "is %s, which has no labels; bccskel skeletonize takes it", InputKindPhrase(kind)));
   }
   BCCSKEL_ASSIGN_OR_RETURN(const auto source, OpenImage(arguments.input, arguments.image.open));
   return CollectLabels(*source, arguments.image, arguments.min_voxels, context);

@@ -132,6 +132,11 @@ class LabelsTest(harness.TestCase):
                        "labels", mesh, "-o", self.path("a.csv"))
         self.fail_with(3, "is a volume, which has no labels; bccskel skeletonize takes it",
                        "labels", self.generate("ball"), "-o", self.path("a.csv"))
+        result = self.path("all.json")
+        self.labels("-o", result)
+        done = self.fail_with(3, "all.json: is no mesh, volume or image; bccskel view shows a result",
+                              "labels", result, "-o", self.path("a.csv"))
+        self.assertEqual(done.stderr.count(result), 1)
 
     def test_the_summary_adds_up_what_preparing_did(self):
         labels = numpy.zeros((9, 9, 30), "u1")
