@@ -4,6 +4,9 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
+
+#include "core/pruning/branch_walk.h"
 
 namespace bccskel {
 namespace {
@@ -17,7 +20,12 @@ constexpr double kMostWide = 4, kWideMargin = 2;  // from the middle to the surf
 // How much the radius of a circle as large as the cut, seen along the limb, may differ from that of
 // the section before: a share of it, and units.
 constexpr double kMostChange = 0.25, kChangeMargin = 1;
-constexpr double kPlaceStep = 2, kBeyond = 1;  // units
+constexpr double kPlaceStep = 2;  // units
+// From a junction back along the trunk, in its radius; and how far off its axis the points of its
+// end may lie.
+constexpr double kTrunkRadii = 6, kTrunkWide = 1.25;
+constexpr int kMostJunctions = 16;  // along a trunk, which may be a loop
+constexpr size_t kArmPoints = 8;    // from the junction to where arms are compared
 constexpr int kRounds = 3;
 constexpr size_t kRays = 2 * kTurns.size();
 
@@ -28,6 +36,42 @@ Coordinates RayIn(const std::array<Coordinates, 2>& plane, size_t n) {
 }
 
 double RadiusOf(double area) { return std::sqrt(area / std::numbers::pi); }
+
+// The deepest curve that leads away from the junction, except for the one that begins with `own`.
+std::vector<LatticePoint> DeepestArm(LatticePoint junction, LatticePoint own, const ThinSet& set,
+                                     LatticePoint& end) {
+  std::vector<LatticePoint> deepest;
+  float most = 0;
+  for (LatticePoint p : ClusterOf(set, junction)) {
+    ForEachNeighbor(p, set.NeighborsOf(p), [&](LatticePoint q) {
+      if (q == own || set.Branches(q)) return;
+      std::vector<LatticePoint> arm = {p};
+      const LatticePoint last = FollowCurve(set, p, q, arm);
+      const float radius = set.RadiusOf(arm[std::min(arm.size() - 1, kArmPoints)]);
+      if (radius <= most) return;
+      most = radius;
+      deepest = std::move(arm);
+      end = last;
+    });
+  }
+  return deepest;
+}
+
+// The points of the trunk from the junction back, through others.
+std::vector<LatticePoint> TrunkTo(LatticePoint junction, LatticePoint own, const ThinSet& set) {
+  std::vector<LatticePoint> trunk;
+  const double length = kTrunkRadii * set.RadiusOf(junction) + kBackMargin;
+  LatticePoint at = junction;
+  for (int n = 0; n < kMostJunctions; ++n) {
+    LatticePoint end = at;
+    const std::vector<LatticePoint> arm = DeepestArm(at, own, set, end);
+    trunk.insert(trunk.end(), arm.begin(), arm.end());
+    if (arm.size() < 2 || !set.Branches(end) || set.Between(end, junction) > length) break;
+    own = arm.back();
+    at = end;
+  }
+  return trunk;
+}
 
 }  // namespace
 
@@ -42,15 +86,16 @@ double BorderTips::OutFrom(const Coordinates& place, const Face& face) const {
   return face.side > 0 ? high_[axis] - place[axis] : place[axis] - low_[axis];
 }
 
-BorderTips::Face BorderTips::NearestFace(LatticePoint p) const {
+std::vector<BorderTips::Face> BorderTips::FacesNear(LatticePoint p, double reach) const {
   const Coordinates place = PlaceOf(p, scale_);
-  Face nearest;
+  std::vector<Face> faces;
   for (size_t axis = 0; axis < 3; ++axis) {
     for (const int32_t side : {-1, 1}) {
-      if (OutFrom(place, {axis, side}) < OutFrom(place, nearest)) nearest = {axis, side};
+      if (OutFrom(place, {axis, side}) <= reach) faces.push_back({axis, side});
     }
   }
-  return nearest;
+  std::ranges::stable_sort(faces, {}, [&](const Face& face) { return OutFrom(place, face); });
+  return faces;
 }
 
 // Moves the middle to the centroid of what rays from it see, a few times. None if the object then
@@ -104,7 +149,6 @@ std::optional<BorderTips::Limb> BorderTips::LimbBefore(const Face& face,
                                                        const ThinSet& set) {
   const auto out_at = [&](LatticePoint p) { return OutFrom(PlaceOf(p, scale_), face); };
   size_t from = path.size() - 1;
-  if (out_at(path[from]) > kFarRadii * set.RadiusOf(path[from]) + kTouchMargin) return std::nullopt;
   while (from > 0 && out_at(path[from]) <= set.RadiusOf(path[from]) + kTouchMargin) --from;
   // Of a wide limb, the border may cut off a part of the section there.
   while (from > 0 && TouchesAcross(face, path, from, set)) --from;
@@ -113,13 +157,37 @@ std::optional<BorderTips::Limb> BorderTips::LimbBefore(const Face& face,
   size_t back = from;
   while (back > 0 && length_from(back) < kBackRadii * radius + kBackMargin) --back;
   if (length_from(back) < kLeastRadii * radius + kLeastMargin) return std::nullopt;
-  Limb limb = {from, {}, Unit(set.Way(path[back], path[from])), kMostWide * radius + kWideMargin};
+  Limb limb;
+  limb.from = from;
+  limb.way = Unit(set.Way(path[back], path[from]));
+  limb.reach = kMostWide * radius + kWideMargin;
   const auto plane = Across(limb.way);
   const auto before = SectionAt(PlaceOf(path[back], scale_), plane, limb.reach);
   const auto last = SectionAt(PlaceOf(path[from], scale_), plane, limb.reach);
   if (!last.has_value()) return std::nullopt;
   limb.last = *last;
+  limb.start = last->middle;
   if (before.has_value()) limb.way = Unit(Sum(last->middle, -1, before->middle));
+  return limb;
+}
+
+std::optional<BorderTips::Limb> BorderTips::TrunkBefore(const Face& face,
+                                                        std::span<const LatticePoint> path,
+                                                        LatticePoint junction, const ThinSet& set) {
+  std::vector<LatticePoint> whole = TrunkTo(junction, path[0], set);
+  if (whole.empty()) return std::nullopt;
+  std::ranges::reverse(whole);
+  std::optional<Limb> limb = LimbBefore(face, whole, set);
+  if (!limb.has_value()) return std::nullopt;
+  const double wide = kTrunkWide * RadiusOf(limb->last.area);
+  const bool beside = std::ranges::any_of(path, [&](LatticePoint p) {
+    const Coordinates to = Sum(PlaceOf(p, scale_), -1, limb->last.middle);
+    const Coordinates off = Sum(to, -Dot(to, limb->way), limb->way);
+    return Dot(off, off) > wide * wide;
+  });
+  if (beside) return std::nullopt;
+  limb->from = 0;
+  limb->start = PlaceOf(path[0], scale_);
   return limb;
 }
 
@@ -140,21 +208,28 @@ std::optional<Coordinates> BorderTips::MiddleOfCut(const Face& face, const Limb&
   return Sum(cut->middle, unit / cosine, limb.way);
 }
 
-std::optional<BorderTips::Way> BorderTips::WayOf(std::span<const LatticePoint> path,
-                                                 const ThinSet& set) {
-  const Face face = NearestFace(path.back());
-  const std::optional<Limb> limb = LimbBefore(face, path, set);
-  if (!limb.has_value()) return std::nullopt;
-  const std::optional<Coordinates> middle = MiddleOfCut(face, *limb);
-  if (!middle.has_value()) return std::nullopt;
-  Way way = {limb->from, {}};
-  // Growth stops a little before its last place, so that lies beyond the border.
-  const Coordinates straight = Sum(Sum(*middle, kBeyond, limb->way), -1, limb->last.middle);
+BorderTips::Way BorderTips::StraightTo(const Coordinates& middle, const Limb& limb) {
+  Way way = {limb.from, {}};
+  const Coordinates straight = Sum(middle, -1, limb.start);
   const auto steps = static_cast<int>(std::ceil(std::sqrt(Dot(straight, straight)) / kPlaceStep));
   for (int n = 1; n <= steps; ++n) {
-    way.places.push_back(Sum(limb->last.middle, 1.0 * n / steps, straight));
+    way.places.push_back(Sum(limb.start, 1.0 * n / steps, straight));
   }
   return way;
+}
+
+std::optional<BorderTips::Way> BorderTips::WayOf(std::span<const LatticePoint> path,
+                                                 const std::optional<LatticePoint>& junction,
+                                                 const ThinSet& set) {
+  const LatticePoint end = path.back();
+  for (const Face& face : FacesNear(end, kFarRadii * set.RadiusOf(end) + kTouchMargin)) {
+    std::optional<Limb> limb = LimbBefore(face, path, set);
+    if (!limb.has_value() && junction.has_value()) limb = TrunkBefore(face, path, *junction, set);
+    if (!limb.has_value()) continue;
+    const std::optional<Coordinates> middle = MiddleOfCut(face, *limb);
+    if (middle.has_value()) return StraightTo(*middle, *limb);
+  }
+  return std::nullopt;
 }
 
 }  // namespace bccskel

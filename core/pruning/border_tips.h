@@ -31,8 +31,12 @@ class BorderTips {
   // The way of a limb whose balls but the last do not touch the border: from the last such ball
   // straight on. None if the branch ends elsewhere, or if the limb does not continue to the border
   // in about the same width: a tip or a body that only touches it was not cut off.
-  // Needs: the path ends at an end of `set`, which belongs to the object.
-  std::optional<Way> WayOf(std::span<const LatticePoint> path, const ThinSet& set);
+  // Where a branch leaves the limb so near its cut that all balls behind it touch the border, the
+  // limb is the trunk behind the junction.
+  // Needs: the path leads from the junction, if there is one, to an end of `set`, which belongs to
+  //        the object.
+  std::optional<Way> WayOf(std::span<const LatticePoint> path,
+                           const std::optional<LatticePoint>& junction, const ThinSet& set);
 
  private:
   struct Face {
@@ -46,22 +50,29 @@ class BorderTips {
   };
 
   struct Limb {
-    size_t from = 0;       // position in the path
-    Section last;          // across the limb there
-    Coordinates way = {};  // toward the border, of length 1
-    double reach = 0;      // of searches for the limb's surface, lattice units
+    size_t from = 0;         // position in the path
+    Section last;            // across the limb there
+    Coordinates way = {};    // toward the border, of length 1
+    double reach = 0;        // of searches for the limb's surface, lattice units
+    Coordinates start = {};  // of the straight way
   };
 
   double OutFrom(const Coordinates& place, const Face& face) const;
-  Face NearestFace(LatticePoint p) const;
+  // The faces at most so far away, the nearest first.
+  std::vector<Face> FacesNear(LatticePoint p, double reach) const;
   std::optional<Section> SectionAt(Coordinates middle, const std::array<Coordinates, 2>& plane,
                                    double reach);
+  // Whether the border cuts a part of the section across the path there off.
   bool TouchesAcross(const Face& face, std::span<const LatticePoint> path, size_t n,
                      const ThinSet& set);
   // The limb before its balls touch the face.
   std::optional<Limb> LimbBefore(const Face& face, std::span<const LatticePoint> path,
                                  const ThinSet& set);
+  // The same of the trunk that the branch continues, from behind its junction.
+  std::optional<Limb> TrunkBefore(const Face& face, std::span<const LatticePoint> path,
+                                  LatticePoint junction, const ThinSet& set);
   std::optional<Coordinates> MiddleOfCut(const Face& face, const Limb& limb);
+  static Way StraightTo(const Coordinates& middle, const Limb& limb);
 
   const AxisScale scale_;
   const Coordinates low_, high_;  // of the image

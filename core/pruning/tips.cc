@@ -130,7 +130,7 @@ class TipPlacer {
   bool LeadToBorder(const FreeBranch& branch) {
     if (!border_tips_.has_value()) return false;
     path_.assign(branch.points.rbegin(), branch.points.rend());
-    const std::optional<BorderTips::Way> way = border_tips_->WayOf(path_, set_);
+    const std::optional<BorderTips::Way> way = border_tips_->WayOf(path_, junction_, set_);
     if (!way.has_value() || !GrowFrom(way->from, way->places)) return false;
     at_border_.insert(at_border_.end(), path_.begin() + static_cast<std::ptrdiff_t>(way->from) + 1,
                       path_.end());

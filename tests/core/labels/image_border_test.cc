@@ -103,6 +103,29 @@ TEST(ImageBorder, LimbsOfAPictureLeadToIt) {
   }
 }
 
+// Behind a thin limb that leaves it there, all balls of its end touch the border.
+TEST(ImageBorder, ALimbLeadsToItBehindABranch) {
+  const MaskGrid grid = {.nx = 70, .ny = 70, .nz = 40};
+  const double slope = 0.5, radius = 8;
+  const auto axis = [&](double x) { return 22 + slope * (x - 35); };
+  for (const double beside : {4.0, 7.0, 10.0}) {
+    const double branch = 70 - beside;
+    const SkeletonizeResult result = SkeletonOf(grid, {}, {}, [&](const Voxel& at) {
+      const double x = at[0] + 0.5, y = at[1] + 0.5, z = at[2] + 0.5 - 20;
+      const double across = (y - axis(x)) / std::hypot(1, slope);
+      return std::hypot(across, z) <= radius ||
+             (y > axis(x) && y < 66 && std::hypot(x - branch, z) <= 2);
+    });
+    const WorldPoint middle = {69.5, axis(70) - 0.5, 19.5};
+    double least = 1e9;
+    for (const SkeletonNode& node : result.graph.nodes) {
+      least = std::min(least, Between(result.graph.PositionOf(node.at), middle));
+    }
+    EXPECT_LT(least, 2.5) << beside;
+    EXPECT_EQ(std::ranges::count(result.graph.nodes, NodeKind::kEnd, &SkeletonNode::kind), 3);
+  }
+}
+
 // Tips and bodies that only touch the border, and limbs that end in the image, are as in an image
 // with space around them.
 TEST(ImageBorder, WhatItDoesNotCutOffStays) {
