@@ -68,12 +68,11 @@ absl::Status CheckBoxes(const view::ResultDocument& result, const Volume& object
       const double unit = object.placement().spacing[axis] / 2;
       const double slack = kSlack * (high - low) + 2 * kSlackCells;
       const double inside = std::min(ball.center[axis] - low, high - ball.center[axis]);
-      const double radius = result.border_continues ? 0 : ball.radius;
-      if (radius / unit - inside <= slack) continue;
+      if (-inside <= slack) continue;  // balls may reach beyond the border that cuts a limb
       return absl::InvalidArgumentError(
           absl::StrFormat("%s: the result's object reaches %.4g beyond this one's box along the "
                           "axis %c of its grid",
-                          kOtherObject, radius - inside * unit, "xyz"[axis]));
+                          kOtherObject, -inside * unit, "xyz"[axis]));
     }
   }
   return absl::OkStatus();

@@ -257,7 +257,7 @@ class Reader {
     ReadFields(place, [&](std::string_view name) { to.options.emplace_back(name, Word()); });
     if (!status_.ok()) return;
     now_ = begin;
-    std::string cavities, components, border;
+    std::string cavities, components;
     PreparingOptions& preparing = to.preparing;
     ReadObject(place, Optional("denoise_passes", preparing.denoise_passes),
                Optional("cavities", cavities), Optional("tunnel_width", preparing.tunnel_width),
@@ -265,10 +265,9 @@ class Reader {
                Optional("join_gaps", preparing.join_gaps),
                Optional("min_component_points", preparing.min_component_points),
                Optional("min_component_volume", preparing.min_component_volume),
-               Optional("components", components), Optional("border", border));
+               Optional("components", components));
     if (cavities == "filled") preparing.cavities = CavityFilling::kOn;
     if (components == "largest") preparing.components = KeptComponents::kLargest;
-    to.border_continues = border == "continues" || border == "slice";
   }
   void Read(const Place& place, Order& to) {
     ReadObject(place, Required("roots", to.roots), Optional("rule", to.rule));

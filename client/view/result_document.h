@@ -62,7 +62,6 @@ struct ResultDocument : ResultFacts {
   Sheets sheets;
   std::optional<Placement> placement;          // unknown in results of older versions
   PreparingOptions preparing;                  // the preparation of the object before thinning
-  bool border_continues = false;               // whether balls reach beyond the border
   std::optional<std::vector<uint32_t>> roots;  // of a result with an order; indices into nodes
   std::string root_rule;                       // the rule of the roots, if the document states it
   std::shared_ptr<const std::string> text;     // the document itself

@@ -27,24 +27,32 @@ std::optional<LatticeBox> ImageThatCuts(const LatticeExtent& extent,
   return WindowOf(extent, LastPointsOf(options.source), axes);
 }
 
-absl::Status MeasureAtBorder(const Volume& object, std::span<const LatticePoint> at_border,
-                             int32_t voxel_units, const Volume& thin, exec::MemoryBudget& memory,
-                             const exec::Context& context, std::vector<float>& radii) {
-  if (at_border.empty()) return absl::OkStatus();
-  BCCSKEL_ASSIGN_OR_RETURN(
-      const Volume space,
-      ContinueBeyondBorder(object, BorderPoints::kLastCorners, kAllAxes, memory));
-  VolumeBuilder builder(object.extent(), object.placement());
-  for (LatticePoint p : at_border) builder.Add(p);
-  BCCSKEL_ASSIGN_OR_RETURN(const Volume points, std::move(builder).Build());
-  const ExactRadius search(space);
-  BCCSKEL_ASSIGN_OR_RETURN(const std::vector<float> exact, ExactRadii(points, search, context));
-  BCCSKEL_ASSIGN_OR_RETURN(const std::vector<float> stated,
-                           MeasureVoxelRadii(space, voxel_units, search, points, exact, context));
+absl::Status MeasureAtBorder(const Volume& object, const SkeletonizeOptions& options,
+                             const PointsByAxis& at_border, const Volume& thin,
+                             exec::MemoryBudget& memory, const exec::Context& context,
+                             std::vector<float>& radii) {
   std::unordered_map<LatticePoint, float, LatticePointHash> by_point;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    if (at_border[axis].empty()) continue;
+    AxesAcross axes = {};
+    axes[axis] = true;
+    if (const auto slice = AxisOfOneSlice(object.extent(), options)) axes[*slice] = true;
+    BCCSKEL_ASSIGN_OR_RETURN(
+        const Volume space,
+        ContinueBeyondBorder(object, LastPointsOf(options.source), axes, memory));
+    VolumeBuilder builder(object.extent(), object.placement());
+    for (LatticePoint p : at_border[axis]) builder.Add(p);
+    BCCSKEL_ASSIGN_OR_RETURN(const Volume points, std::move(builder).Build());
+    const ExactRadius search(space);
+    BCCSKEL_ASSIGN_OR_RETURN(const std::vector<float> exact, ExactRadii(points, search, context));
+    const auto voxel_units = static_cast<int32_t>(SurfaceStepOf(options.source));
+    BCCSKEL_ASSIGN_OR_RETURN(const std::vector<float> stated,
+                             MeasureVoxelRadii(space, voxel_units, search, points, exact, context));
+    size_t n = 0;
+    points.ForEachPoint([&](LatticePoint p) { by_point.emplace(p, stated[n++]); });
+  }
+  if (by_point.empty()) return absl::OkStatus();
   size_t n = 0;
-  points.ForEachPoint([&](LatticePoint p) { by_point.emplace(p, stated[n++]); });
-  n = 0;
   thin.ForEachPoint([&](LatticePoint p) {
     const auto found = by_point.find(p);
     if (found != by_point.end()) radii[n] = found->second;
@@ -53,10 +61,12 @@ absl::Status MeasureAtBorder(const Volume& object, std::span<const LatticePoint>
   return absl::OkStatus();
 }
 
-void DropShifts(std::span<const LatticePoint> at_border, SkeletonGraph& graph) {
-  if (at_border.empty()) return;
-  const std::unordered_set<LatticePoint, LatticePointHash> straight(at_border.begin(),
-                                                                    at_border.end());
+void DropShifts(const PointsByAxis& at_border, SkeletonGraph& graph) {
+  std::unordered_set<LatticePoint, LatticePointHash> straight;
+  for (const std::vector<LatticePoint>& points : at_border) {
+    straight.insert(points.begin(), points.end());
+  }
+  if (straight.empty()) return;
   for (SkeletonPoint& p : graph.points) {
     if (straight.contains(p.point)) p.shift = {};
   }

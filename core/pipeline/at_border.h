@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "absl/status/status.h"
@@ -13,6 +12,7 @@
 #include "core/pipeline/skeletonize.h"
 #include "core/prepare/beyond_border.h"
 #include "core/skeleton/skeleton_graph.h"
+#include "core/skeleton/thin_skeleton.h"
 #include "core/volume/volume.h"
 
 namespace bccskel {
@@ -28,16 +28,17 @@ std::optional<LatticeBox> ImageThatCuts(const LatticeExtent& extent,
 // Points of curves that lead to where the border of an image cuts limbs off (BorderTips). The
 // border is no surface of these limbs, although it is background for everything else.
 
-// Sets their radii as if the object continued beyond the border. (If it does, they are.)
+// Sets their radii as if the object continued across the axis of their cut.
 // Shapes: `radii` has one value per point of `thin`, in the order of Volume::ForEachPoint().
-// Needs:  an exact conversion of a mask, whose voxel edge is `voxel_units` lattice units.
+// Needs:  an exact conversion of a mask.
 // Errors: of the budget, CANCELLED, DEADLINE_EXCEEDED.
-absl::Status MeasureAtBorder(const Volume& object, std::span<const LatticePoint> at_border,
-                             int32_t voxel_units, const Volume& thin, exec::MemoryBudget& memory,
-                             const exec::Context& context, std::vector<float>& radii);
+absl::Status MeasureAtBorder(const Volume& object, const SkeletonizeOptions& options,
+                             const PointsByAxis& at_border, const Volume& thin,
+                             exec::MemoryBudget& memory, const exec::Context& context,
+                             std::vector<float>& radii);
 
 // Takes back what CenterCurves() did with them: their curves are straight.
-void DropShifts(std::span<const LatticePoint> at_border, SkeletonGraph& graph);
+void DropShifts(const PointsByAxis& at_border, SkeletonGraph& graph);
 
 }  // namespace bccskel
 

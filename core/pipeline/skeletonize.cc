@@ -209,8 +209,8 @@ class Pipeline {
         std::vector<float> radii,
         MeasureVoxelRadii(space, voxel_units, *search_, skeleton_.points, exact, context_));
     if (options_.border == Border::kContinues) return radii;
-    BCCSKEL_RETURN_IF_ERROR(MeasureAtBorder(object, at_border_, voxel_units, skeleton_.points,
-                                            memory_, context_, radii));
+    BCCSKEL_RETURN_IF_ERROR(
+        MeasureAtBorder(object, options_, at_border_, skeleton_.points, memory_, context_, radii));
     return radii;
   }
 
@@ -352,9 +352,9 @@ class Pipeline {
   ThinSkeleton skeleton_;
   std::optional<Volume> space_;  // the object in a window, where it continues beyond the border
   BorderCuts cuts_;              // of limbs, at that border
-  std::vector<LatticePoint> at_border_;  // of curves that lead to where the border cuts limbs off
-  ThinningOptions thinning_;             // keeps the middles of these cuts, too
-  std::optional<ExactRadius> search_;    // where radii of voxels are measured
+  PointsByAxis at_border_;       // of curves that lead to where the border cuts limbs off
+  ThinningOptions thinning_;     // keeps the middles of these cuts, too
+  std::optional<ExactRadius> search_;  // where radii of voxels are measured
   SkeletonizeResult result_;
 };
 

@@ -4,9 +4,11 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 #include <utility>
 
 #include "core/pruning/branch_walk.h"
+#include "core/pruning/grow_along.h"
 
 namespace bccskel {
 namespace {
@@ -24,8 +26,11 @@ constexpr double kPlaceStep = 2;  // units
 // From a junction back along the trunk, in its radius; and how far off its axis the points of its
 // end may lie.
 constexpr double kTrunkRadii = 6, kTrunkWide = 1.25;
-constexpr int kMostJunctions = 16;  // along a trunk, which may be a loop
-constexpr size_t kArmPoints = 8;    // from the junction to where arms are compared
+constexpr double kNearRadii = 4;      // from a ball to the border
+constexpr double kOtherLimb = 0.7;    // radius of another limb, in that of the trunk
+constexpr double kLeastBranch = 0.5;  // of a trunk, in the radius of its section
+constexpr int kMostJunctions = 16;    // along a trunk, which may be a loop
+constexpr size_t kArmPoints = 8;      // from the junction to where arms are compared
 constexpr int kRounds = 3;
 constexpr size_t kRays = 2 * kTurns.size();
 
@@ -73,12 +78,29 @@ std::vector<LatticePoint> TrunkTo(LatticePoint junction, LatticePoint own, const
   return trunk;
 }
 
+// The curve from p on, away from its neighbor `previous`, and through junctions along the trunk.
+std::vector<LatticePoint> CurveFrom(LatticePoint previous, LatticePoint p, const ThinSet& set) {
+  std::vector<LatticePoint> curve;
+  LatticePoint last = previous, at = p;
+  while (IsCurvePoint(set.NeighborsOf(at)) && at != previous) {  // unless it is a loop
+    curve.push_back(at);
+    const LatticePoint next = NextPoint(at, set.NeighborsOf(at), last);
+    last = at;
+    at = next;
+  }
+  if (!set.Branches(at)) return curve;
+  const std::vector<LatticePoint> trunk = TrunkTo(at, last, set);
+  curve.insert(curve.end(), trunk.begin(), trunk.end());
+  return curve;
+}
+
 }  // namespace
 
 BorderTips::BorderTips(const Volume& object, const LatticeBox& image)
     : scale_(AxisScaleOf(object.placement())),
       low_(PlaceOf(image.low, scale_)),
       high_(PlaceOf(image.high, scale_)),
+      bricks_(object),
       sections_(object) {}
 
 double BorderTips::OutFrom(const Coordinates& place, const Face& face) const {
@@ -208,8 +230,9 @@ std::optional<Coordinates> BorderTips::MiddleOfCut(const Face& face, const Limb&
   return Sum(cut->middle, unit / cosine, limb.way);
 }
 
-BorderTips::Way BorderTips::StraightTo(const Coordinates& middle, const Limb& limb) {
-  Way way = {limb.from, {}};
+BorderTips::Way BorderTips::StraightTo(const Coordinates& middle, const Face& face,
+                                       const Limb& limb) {
+  Way way = {face.axis, limb.from, {}};
   const Coordinates straight = Sum(middle, -1, limb.start);
   const auto steps = static_cast<int>(std::ceil(std::sqrt(Dot(straight, straight)) / kPlaceStep));
   for (int n = 1; n <= steps; ++n) {
@@ -227,9 +250,77 @@ std::optional<BorderTips::Way> BorderTips::WayOf(std::span<const LatticePoint> p
     if (!limb.has_value() && junction.has_value()) limb = TrunkBefore(face, path, *junction, set);
     if (!limb.has_value()) continue;
     const std::optional<Coordinates> middle = MiddleOfCut(face, *limb);
-    if (middle.has_value()) return StraightTo(*middle, *limb);
+    if (middle.has_value()) return StraightTo(*middle, face, *limb);
   }
   return std::nullopt;
+}
+
+bool BorderTips::Touches(LatticePoint p, const Face& face, const ThinSet& set) const {
+  return OutFrom(PlaceOf(p, scale_), face) <= set.RadiusOf(p) + kTouchMargin;
+}
+
+std::vector<BorderTips::Crossing> BorderTips::Crossings(const ThinSet& set) const {
+  std::vector<Crossing> crossings;
+  set.ForEachPoint([&](LatticePoint p) {
+    for (const Face& face : FacesNear(p, kNearRadii * set.RadiusOf(p) + kTouchMargin)) {
+      if (Touches(p, face, set)) continue;
+      ForEachNeighbor(p, set.NeighborsOf(p), [&](LatticePoint q) {
+        if (Touches(q, face, set)) crossings.push_back({face, p, q});
+      });
+    }
+  });
+  std::ranges::sort(crossings, {}, [](const Crossing& c) {
+    return std::tuple(c.face.axis, c.face.side, c.last, c.touching);
+  });
+  return crossings;
+}
+
+void BorderTips::AddBranches(ExactRadius& radius, ThinSet& set, PointsByAxis& added) {
+  const auto may_add = [&](LatticePoint p) { return bricks_.Contains(p); };
+  for (const Crossing& crossing : Crossings(set)) {
+    const std::optional<NewBranch> branch = BranchFrom(crossing, set);
+    if (!branch.has_value()) continue;
+    std::vector<LatticePoint> path = {branch->from};
+    if (!GrowAlong(branch->way.places, 0, may_add, path, set)) continue;
+    for (size_t n = 1; n < path.size(); ++n) set.SetRadius(path[n], radius.At(path[n]));
+    std::vector<LatticePoint>& of_axis = added[branch->way.axis];
+    of_axis.insert(of_axis.end(), path.begin() + 1, path.end());
+  }
+}
+
+// A bent limb, such as a ring, may graze the face.
+bool BorderTips::GoesOnAsThick(const Crossing& crossing, const ThinSet& set) const {
+  const std::vector<LatticePoint> beyond = CurveFrom(crossing.last, crossing.touching, set);
+  const auto leaves =
+      std::ranges::find_if(beyond, [&](LatticePoint p) { return !Touches(p, crossing.face, set); });
+  const float radius = set.RadiusOf(crossing.last);
+  const auto outside = std::find_if(leaves, beyond.end(), [&](LatticePoint p) {
+    return set.Between(p, *leaves) >= kBackRadii * radius;
+  });
+  return outside != beyond.end() && set.RadiusOf(*outside) > kOtherLimb * radius;
+}
+
+std::optional<BorderTips::NewBranch> BorderTips::BranchFrom(const Crossing& crossing,
+                                                            const ThinSet& set) {
+  const auto& [face, p, touching] = crossing;
+  std::vector<LatticePoint> trunk = CurveFrom(touching, p, set);
+  if (trunk.size() < 2 || GoesOnAsThick(crossing, set)) return std::nullopt;
+  std::ranges::reverse(trunk);
+  std::optional<Limb> limb = LimbBefore(face, trunk, set);
+  if (!limb.has_value()) return std::nullopt;
+  const std::optional<Coordinates> middle = MiddleOfCut(face, *limb);
+  if (!middle.has_value()) return std::nullopt;
+  const double wide = RadiusOf(limb->last.area);
+  LatticePoint nearest = p;
+  bool has_end = false;
+  set.ForEachPoint([&](LatticePoint other) {
+    const double way = set.Between(other, *middle), least = set.Between(nearest, *middle);
+    has_end = has_end || (way <= kTrunkWide * wide && set.IsEnd(other));
+    if (way < least || (way == least && other < nearest)) nearest = other;
+  });
+  if (has_end || set.Between(nearest, *middle) < kLeastBranch * wide) return std::nullopt;
+  limb->start = PlaceOf(nearest, scale_);
+  return NewBranch{nearest, StraightTo(*middle, face, *limb)};
 }
 
 }  // namespace bccskel

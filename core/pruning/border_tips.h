@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/distance/exact_radius.h"
 #include "core/distance/places.h"
 #include "core/lattice/lattice_point.h"
 #include "core/pruning/cross_section.h"
@@ -21,6 +22,7 @@ namespace bccskel {
 class BorderTips {
  public:
   struct Way {
+    size_t axis = 0;  // across which the border cuts the limb
     size_t from = 0;  // position in the path of the point before the first place
     std::vector<Coordinates> places;
   };
@@ -38,10 +40,25 @@ class BorderTips {
   std::optional<Way> WayOf(std::span<const LatticePoint> path,
                            const std::optional<LatticePoint>& junction, const ThinSet& set);
 
+  // Adds branches for limbs that end at the border, but whose curves turn into thinner limbs that
+  // leave them shortly before: from the point of the set that is nearest to the middle of the cut.
+  // Appends the new points to `added`. Each touches the set only at the point before it, so the
+  // topology stays. `radius` belongs to the object.
+  void AddBranches(ExactRadius& radius, ThinSet& set, PointsByAxis& added);
+
  private:
+  struct NewBranch {
+    LatticePoint from;
+    Way way;
+  };
   struct Face {
     size_t axis = 0;
     int32_t side = 1;  // -1: the low one
+  };
+  // Where a curve comes so near to a face that its balls touch it.
+  struct Crossing {
+    Face face;
+    LatticePoint last, touching;  // neighbors
   };
   // A part of a plane in the object.
   struct Section {
@@ -72,10 +89,19 @@ class BorderTips {
   std::optional<Limb> TrunkBefore(const Face& face, std::span<const LatticePoint> path,
                                   LatticePoint junction, const ThinSet& set);
   std::optional<Coordinates> MiddleOfCut(const Face& face, const Limb& limb);
-  static Way StraightTo(const Coordinates& middle, const Limb& limb);
+  bool Touches(LatticePoint p, const Face& face, const ThinSet& set) const;
+  // In the order of faces and points.
+  std::vector<Crossing> Crossings(const ThinSet& set) const;
+  // Whether the curve behind the crossing leaves the face again in a limb about as thick.
+  bool GoesOnAsThick(const Crossing& crossing, const ThinSet& set) const;
+  // The branch of the limb that leads to the crossing. None if an end lies in its cut, or if the
+  // curve comes near its middle.
+  std::optional<NewBranch> BranchFrom(const Crossing& crossing, const ThinSet& set);
+  static Way StraightTo(const Coordinates& middle, const Face& face, const Limb& limb);
 
   const AxisScale scale_;
   const Coordinates low_, high_;  // of the image
+  NearbyBricks bricks_;
   CrossSections sections_;
 };
 

@@ -185,7 +185,7 @@ absl::StatusOr<ThinSkeleton> Prune(const ThinSkeleton& curves, const PrunedObjec
   };
   PointSet stay = kept;
   if (in.cuts != nullptr) stay.insert(in.cuts->middles.begin(), in.cuts->middles.end());
-  absl::StatusOr<std::vector<LatticePoint>> at_border = std::vector<LatticePoint>();
+  absl::StatusOr<PointsByAxis> at_border = PointsByAxis();
   const auto place_tips = [&](const exec::Context& own) {
     if (!depths.has_value()) return;
     at_border = PlaceTips(set, in.object, in.radius, *depths, stay, noise, turned, in.image, own);

@@ -1,6 +1,7 @@
 #include "core/pruning/tips.h"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <utility>
@@ -82,7 +83,11 @@ class TipPlacer {
     MeasureGrown();
   }
 
-  std::vector<LatticePoint> TakeAtBorder() && { return std::move(at_border_); }
+  // Returns the points of curves that lead to cuts at the border.
+  PointsByAxis AddAtBorder() && {
+    if (border_tips_.has_value()) border_tips_->AddBranches(radius_, set_, at_border_);
+    return std::move(at_border_);
+  }
 
  private:
   // Finds where the limb begins, by its largest run: no tip lies before that.
@@ -132,8 +137,8 @@ class TipPlacer {
     path_.assign(branch.points.rbegin(), branch.points.rend());
     const std::optional<BorderTips::Way> way = border_tips_->WayOf(path_, junction_, set_);
     if (!way.has_value() || !GrowFrom(way->from, way->places)) return false;
-    at_border_.insert(at_border_.end(), path_.begin() + static_cast<std::ptrdiff_t>(way->from) + 1,
-                      path_.end());
+    std::ranges::copy(std::span(path_).subspan(way->from + 1),
+                      std::back_inserter(at_border_[way->axis]));
     MeasureGrown();
     return true;
   }
@@ -372,23 +377,23 @@ class TipPlacer {
   LatticePoint ridge_end_;          // the last point that is certainly on the ridge
   WayOn way_on_;                    // from there
   std::vector<LatticePoint> path_;  // from the anchor, which is not part of it, to the tip
-  std::vector<LatticePoint> at_border_;
+  PointsByAxis at_border_;
 };
 
 }  // namespace
 
-absl::StatusOr<std::vector<LatticePoint>> PlaceTips(ThinSet& set, const Volume& object,
-                                                    const ExactRadius& radius, TipDepths& depths,
-                                                    const PointSet& keep, const SurfaceNoise& noise,
-                                                    const TurnedTips& turned,
-                                                    const std::optional<LatticeBox>& image,
-                                                    const exec::Context& context) {
+absl::StatusOr<PointsByAxis> PlaceTips(ThinSet& set, const Volume& object,
+                                       const ExactRadius& radius, TipDepths& depths,
+                                       const PointSet& keep, const SurfaceNoise& noise,
+                                       const TurnedTips& turned,
+                                       const std::optional<LatticeBox>& image,
+                                       const exec::Context& context) {
   TipPlacer placer(set, object, radius, depths, keep, noise, turned, image, context);
   for (LatticePoint end : set.Ends()) {
     if (context.ShouldStop()) return context.StopStatus();
     placer.Place(end);
   }
-  return std::move(placer).TakeAtBorder();
+  return std::move(placer).AddAtBorder();
 }
 
 }  // namespace bccskel

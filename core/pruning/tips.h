@@ -28,12 +28,12 @@ namespace bccskel {
 //         the box of the image whose border cuts limbs off (BorderTips), or none.
 // Returns the points of curves that were led to the middles of such cuts.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
-absl::StatusOr<std::vector<LatticePoint>> PlaceTips(ThinSet& set, const Volume& object,
-                                                    const ExactRadius& radius, TipDepths& depths,
-                                                    const PointSet& keep, const SurfaceNoise& noise,
-                                                    const TurnedTips& turned,
-                                                    const std::optional<LatticeBox>& image,
-                                                    const exec::Context& context);
+absl::StatusOr<PointsByAxis> PlaceTips(ThinSet& set, const Volume& object,
+                                       const ExactRadius& radius, TipDepths& depths,
+                                       const PointSet& keep, const SurfaceNoise& noise,
+                                       const TurnedTips& turned,
+                                       const std::optional<LatticeBox>& image,
+                                       const exec::Context& context);
 
 }  // namespace bccskel
 

@@ -1,12 +1,16 @@
 #ifndef BCCSKEL_CORE_SKELETON_THIN_SKELETON_H_
 #define BCCSKEL_CORE_SKELETON_THIN_SKELETON_H_
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "core/volume/volume.h"
 
 namespace bccskel {
+
+// Points for each of the axes x, y and z.
+using PointsByAxis = std::array<std::vector<LatticePoint>, 3>;
 
 // Level of points that are on no branch with a level.
 inline constexpr double kNoLevel = -1;
@@ -24,8 +28,9 @@ struct ThinSkeleton {
   // is never removed; kNoLevel for points at junctions and those added by growing tips. Empty if
   // branches were not pruned.
   std::vector<double> levels = {};
-  // Some of the points: of curves led to the middle of a cut at the border of the image.
-  std::vector<LatticePoint> at_border = {};
+  // Some of the points: of curves led to the middle of a cut at the border of the image, by the
+  // axis across which that cuts.
+  PointsByAxis at_border = {};
 };
 
 }  // namespace bccskel

@@ -126,6 +126,18 @@ TEST(ImageBorder, ALimbLeadsToItBehindABranch) {
   }
 }
 
+TEST(ImageBorder, ARingThatTouchesItHasNoEnd) {
+  for (const double beside : {-3.0, 0.0, 2.0, 5.0}) {
+    const SkeletonizeResult result =
+        SkeletonOf({.nx = 60, .ny = 60, .nz = 30}, {}, {}, [&](const Voxel& at) {
+          const double out = std::hypot(at[0] - 25 - beside, at[1] - 30) - 20;
+          return std::hypot(out, at[2] - 15) <= 5;
+        });
+    EXPECT_EQ(std::ranges::count(result.graph.nodes, NodeKind::kEnd, &SkeletonNode::kind), 0);
+    EXPECT_EQ(result.certificate.skeleton.loops, 1);
+  }
+}
+
 // Tips and bodies that only touch the border, and limbs that end in the image, are as in an image
 // with space around them.
 TEST(ImageBorder, WhatItDoesNotCutOffStays) {
