@@ -26,11 +26,12 @@ constexpr double kPlaceStep = 2;  // units
 // From a junction back along the trunk, in its radius; and how far off its axis the points of its
 // end may lie.
 constexpr double kTrunkRadii = 6, kTrunkWide = 1.25;
-constexpr double kNearRadii = 4;      // from a ball to the border
-constexpr double kOtherLimb = 0.7;    // radius of another limb, in that of the trunk
-constexpr double kLeastBranch = 0.5;  // of a trunk, in the radius of its section
-constexpr int kMostJunctions = 16;    // along a trunk, which may be a loop
-constexpr size_t kArmPoints = 8;      // from the junction to where arms are compared
+constexpr double kNearRadii = 4;                    // from a ball to the border
+constexpr double kOtherLimb = 0.7;                  // radius of another limb, in that of the trunk
+constexpr double kLeastBranch = 0.5;                // of a trunk, in the radius of its section
+constexpr int kMostJunctions = 16;                  // along a trunk, which may be a loop
+constexpr size_t kArmPoints = 8;                    // from the junction to where arms are compared
+constexpr double kMostCurve = 8, kLeastCurve = 64;  // of a curve, per radius and in any case
 constexpr int kRounds = 3;
 constexpr size_t kRays = 2 * kTurns.size();
 
@@ -78,11 +79,14 @@ std::vector<LatticePoint> TrunkTo(LatticePoint junction, LatticePoint own, const
   return trunk;
 }
 
-// The curve from p on, away from its neighbor `previous`, and through junctions along the trunk.
+// The curve from p on, away from its neighbor `previous`, and through junctions along the trunk, as
+// far as a limb is measured.
 std::vector<LatticePoint> CurveFrom(LatticePoint previous, LatticePoint p, const ThinSet& set) {
   std::vector<LatticePoint> curve;
   LatticePoint last = previous, at = p;
-  while (IsCurvePoint(set.NeighborsOf(at)) && at != previous) {  // unless it is a loop
+  const double most = kMostCurve * set.RadiusOf(p) + kLeastCurve;
+  while (IsCurvePoint(set.NeighborsOf(at)) && static_cast<double>(curve.size()) < most) {
+    if (at == previous) return curve;  // a loop
     curve.push_back(at);
     const LatticePoint next = NextPoint(at, set.NeighborsOf(at), last);
     last = at;
@@ -277,12 +281,14 @@ std::vector<BorderTips::Crossing> BorderTips::Crossings(const ThinSet& set) cons
 
 void BorderTips::AddBranches(ExactRadius& radius, ThinSet& set, PointsByAxis& added) {
   const auto may_add = [&](LatticePoint p) { return bricks_.Contains(p); };
+  std::vector<LatticePoint> ends = set.Ends();
   for (const Crossing& crossing : Crossings(set)) {
-    const std::optional<NewBranch> branch = BranchFrom(crossing, set);
+    const std::optional<NewBranch> branch = BranchFrom(crossing, ends, set);
     if (!branch.has_value()) continue;
     std::vector<LatticePoint> path = {branch->from};
     if (!GrowAlong(branch->way.places, 0, may_add, path, set)) continue;
     for (size_t n = 1; n < path.size(); ++n) set.SetRadius(path[n], radius.At(path[n]));
+    ends.push_back(path.back());
     std::vector<LatticePoint>& of_axis = added[branch->way.axis];
     of_axis.insert(of_axis.end(), path.begin() + 1, path.end());
   }
@@ -301,6 +307,7 @@ bool BorderTips::GoesOnAsThick(const Crossing& crossing, const ThinSet& set) con
 }
 
 std::optional<BorderTips::NewBranch> BorderTips::BranchFrom(const Crossing& crossing,
+                                                            std::span<const LatticePoint> ends,
                                                             const ThinSet& set) {
   const auto& [face, p, touching] = crossing;
   std::vector<LatticePoint> trunk = CurveFrom(touching, p, set);
@@ -311,14 +318,19 @@ std::optional<BorderTips::NewBranch> BorderTips::BranchFrom(const Crossing& cros
   const std::optional<Coordinates> middle = MiddleOfCut(face, *limb);
   if (!middle.has_value()) return std::nullopt;
   const double wide = RadiusOf(limb->last.area);
+  const auto way_to = [&](LatticePoint other) { return set.Between(other, *middle); };
+  const bool has_end =
+      std::ranges::any_of(ends, [&](LatticePoint end) { return way_to(end) <= kTrunkWide * wide; });
+  if (has_end) return std::nullopt;
   LatticePoint nearest = p;
-  bool has_end = false;
+  double least = way_to(p);
   set.ForEachPoint([&](LatticePoint other) {
-    const double way = set.Between(other, *middle), least = set.Between(nearest, *middle);
-    has_end = has_end || (way <= kTrunkWide * wide && set.IsEnd(other));
-    if (way < least || (way == least && other < nearest)) nearest = other;
+    const double way = way_to(other);
+    if (way > least || (way == least && nearest < other)) return;
+    nearest = other;
+    least = way;
   });
-  if (has_end || set.Between(nearest, *middle) < kLeastBranch * wide) return std::nullopt;
+  if (least < kLeastBranch * wide) return std::nullopt;
   limb->start = PlaceOf(nearest, scale_);
   return NewBranch{nearest, StraightTo(*middle, face, *limb)};
 }

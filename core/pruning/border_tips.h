@@ -41,9 +41,9 @@ class BorderTips {
                            const std::optional<LatticePoint>& junction, const ThinSet& set);
 
   // Adds branches for limbs that end at the border, but whose curves turn into thinner limbs that
-  // leave them shortly before: from the point of the set that is nearest to the middle of the cut.
-  // Appends the new points to `added`. Each touches the set only at the point before it, so the
-  // topology stays. `radius` belongs to the object.
+  // leave them shortly before: from the point of the set that is nearest to the middle of the
+  // cut. Appends the new points to `added`. Each touches the set only at the point before it, so
+  // the topology stays. `radius` belongs to the object.
   void AddBranches(ExactRadius& radius, ThinSet& set, PointsByAxis& added);
 
  private:
@@ -94,9 +94,10 @@ class BorderTips {
   std::vector<Crossing> Crossings(const ThinSet& set) const;
   // Whether the curve behind the crossing leaves the face again in a limb about as thick.
   bool GoesOnAsThick(const Crossing& crossing, const ThinSet& set) const;
-  // The branch of the limb that leads to the crossing. None if an end lies in its cut, or if the
-  // curve comes near its middle.
-  std::optional<NewBranch> BranchFrom(const Crossing& crossing, const ThinSet& set);
+  // The branch of the limb that leads to the crossing. None if one of the ends lies in its cut, or
+  // if the curve comes near its middle.
+  std::optional<NewBranch> BranchFrom(const Crossing& crossing, std::span<const LatticePoint> ends,
+                                      const ThinSet& set);
   static Way StraightTo(const Coordinates& middle, const Face& face, const Limb& limb);
 
   const AxisScale scale_;
