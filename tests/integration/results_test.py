@@ -107,6 +107,18 @@ class ResultsTest(harness.TestCase):
         self.assertGreater(summary["jaccard"], 0.9)
         self.succeed("view", self.path("s.json"), "--object", rod, "-o", self.path("x.html"))
 
+    def test_balls_reach_beyond_a_border_that_cuts_a_limb(self):
+        z, y, x = np.ogrid[:30, :80, :60]
+        np.save(self.folder / "rod.npy", (y - 40) ** 2 + (x - 15 - z) ** 2 < 10 ** 2)
+        rod = self.path("rod.npy")
+        ends = [node for node in self.skeletonize(rod)["nodes"] if node["kind"] == "end"]
+        self.assertEqual(len(ends), 2)
+        for end in ends:  # on the faces, with the limb's radius
+            self.assertLess(abs(abs(end["position"][2] - 14.5) - 15), 0.6)
+            self.assertAlmostEqual(end["radius"], 10 / 2 ** 0.5, delta=0.7)
+        self.reconstruct("--object", rod)
+        self.succeed("view", self.path("s.json"), "--object", rod, "-o", self.path("x.html"))
+
     def test_balls_reach_beyond_the_faces_of_one_slice_as_on_a_server(self):
         y, x = np.ogrid[:40, :60]
         np.save(self.folder / "disc.npy", ((y - 20) ** 2 + (x - 30) ** 2 < 14 ** 2)[None])
