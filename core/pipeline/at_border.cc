@@ -1,7 +1,9 @@
 #include "core/pipeline/at_border.h"
 
+#include <algorithm>
 #include <unordered_map>
 #include <unordered_set>
+#include <utility>
 
 #include "core/distance/exact_radius.h"
 #include "core/exec/status_macros.h"
@@ -11,6 +13,40 @@
 #include "core/skeleton/voxel_radii.h"
 
 namespace bccskel {
+
+namespace {
+
+constexpr double kMostRadii = 2, kReachMargin = 8;  // lattice units
+
+// The bricks of the object that are at most `reach`, in lattice units, from those of the points.
+Volume PartAround(const std::vector<LatticePoint>& points, double reach, const Volume& object) {
+  const AxisScale scale = AxisScaleOf(object.placement());
+  std::vector<BrickKey> homes;
+  for (LatticePoint p : points) homes.emplace_back(AddressOf(p).brick);
+  std::ranges::sort(homes);
+  homes.erase(std::unique(homes.begin(), homes.end()), homes.end());
+  const auto is_near = [&](const LatticeBox& a, BrickKey home) {
+    const LatticeBox b = BoxOf(home.coordinates());
+    const auto apart = [&](int32_t low_a, int32_t high_a, int32_t low_b, int32_t high_b) {
+      return std::max({0, low_a - high_b, low_b - high_a});
+    };
+    return scale[0] * apart(a.low.x, a.high.x, b.low.x, b.high.x) <= reach &&
+           scale[1] * apart(a.low.y, a.high.y, b.low.y, b.high.y) <= reach &&
+           scale[2] * apart(a.low.z, a.high.z, b.low.z, b.high.z) <= reach;
+  };
+  std::vector<BrickKey> keys;
+  std::vector<BrickBits> bricks;
+  for (BrickIndex n = 0; n < object.brick_count(); ++n) {
+    const LatticeBox box = BoxOf(object.keys()[n].coordinates());
+    if (std::ranges::none_of(homes, [&](BrickKey home) { return is_near(box, home); })) continue;
+    keys.push_back(object.keys()[n]);
+    bricks.push_back(object.bricks()[n]);
+  }
+  return Volume::FromSortedBricks(object.extent(), object.placement(), std::move(keys),
+                                  std::move(bricks));
+}
+
+}  // namespace
 
 BorderPoints LastPointsOf(ObjectSource source) {
   // The lattice of an exact conversion has the corners of the image's last voxels, and a cell of
@@ -31,15 +67,18 @@ absl::Status MeasureAtBorder(const Volume& object, const SkeletonizeOptions& opt
                              const PointsByAxis& at_border, const Volume& thin,
                              exec::MemoryBudget& memory, const exec::Context& context,
                              std::vector<float>& radii) {
+  if (radii.empty()) return absl::OkStatus();
   std::unordered_map<LatticePoint, float, LatticePointHash> by_point;
+  // No limb is much thicker than the thickest; beyond that part there might as well be background.
+  const double reach = kMostRadii * std::ranges::max(radii) + kReachMargin;
   for (size_t axis = 0; axis < 3; ++axis) {
     if (at_border[axis].empty()) continue;
+    const Volume part = PartAround(at_border[axis], reach, object);
     AxesAcross axes = {};
     axes[axis] = true;
     if (const auto slice = AxisOfOneSlice(object.extent(), options)) axes[*slice] = true;
     BCCSKEL_ASSIGN_OR_RETURN(
-        const Volume space,
-        ContinueBeyondBorder(object, LastPointsOf(options.source), axes, memory));
+        const Volume space, ContinueBeyondBorder(part, LastPointsOf(options.source), axes, memory));
     VolumeBuilder builder(object.extent(), object.placement());
     for (LatticePoint p : at_border[axis]) builder.Add(p);
     BCCSKEL_ASSIGN_OR_RETURN(const Volume points, std::move(builder).Build());
