@@ -162,10 +162,13 @@ bool BorderTips::TouchesAcross(const Face& face, std::span<const LatticePoint> p
   if (back == n) return false;
   const auto plane = Across(Unit(set.Way(path[back], path[n])));
   const Coordinates middle = PlaceOf(path[n], scale_);
+  const double out = OutFrom(middle, face) - kTouchMargin;
   for (size_t ray = 0; ray < kRays; ++ray) {
     const Coordinates way = RayIn(plane, ray);
-    const double length = sections_.WayOut(middle, way, 0, reach) + 1;
-    if (OutFrom(Sum(middle, length, way), face) <= kTouchMargin) return true;
+    const double toward = face.side * way[face.axis];
+    if (toward <= 0 || out > (reach + 1) * toward) continue;  // it does not get there
+    const double length = out / toward - 1;
+    if (sections_.WayOut(middle, way, 0, std::max(std::ceil(length), 0.0)) >= length) return true;
   }
   return false;
 }
