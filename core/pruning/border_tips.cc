@@ -41,6 +41,14 @@ Coordinates RayIn(const std::array<Coordinates, 2>& plane, size_t n) {
   return Sum(Sum({0, 0, 0}, sign * cosine, plane[0]), sign * sine, plane[1]);
 }
 
+// Position in the path of the point from which the way to the point at `n` is measured.
+size_t BackFrom(std::span<const LatticePoint> path, size_t n, const ThinSet& set) {
+  const double length = kBackRadii * set.RadiusOf(path[n]) + kBackMargin;
+  size_t back = n;
+  while (back > 0 && set.Between(path[back], path[n]) < length) --back;
+  return back;
+}
+
 double RadiusOf(double area) { return std::sqrt(area / std::numbers::pi); }
 
 // The deepest curve that leads away from the junction, except for the one that begins with `own`.
@@ -157,8 +165,7 @@ bool BorderTips::TouchesAcross(const Face& face, std::span<const LatticePoint> p
                                const ThinSet& set) {
   const double radius = set.RadiusOf(path[n]);
   const double reach = kMostWide * radius + kWideMargin;
-  size_t back = n;
-  while (back > 0 && set.Between(path[back], path[n]) < kBackRadii * radius + kBackMargin) --back;
+  const size_t back = BackFrom(path, n, set);
   if (back == n) return false;
   const auto plane = Across(Unit(set.Way(path[back], path[n])));
   const Coordinates middle = PlaceOf(path[n], scale_);
@@ -176,16 +183,15 @@ bool BorderTips::TouchesAcross(const Face& face, std::span<const LatticePoint> p
 std::optional<BorderTips::Limb> BorderTips::LimbBefore(const Face& face,
                                                        std::span<const LatticePoint> path,
                                                        const ThinSet& set) {
-  const auto out_at = [&](LatticePoint p) { return OutFrom(PlaceOf(p, scale_), face); };
   size_t from = path.size() - 1;
-  while (from > 0 && out_at(path[from]) <= set.RadiusOf(path[from]) + kTouchMargin) --from;
+  while (from > 0 && Touches(path[from], face, set)) --from;
   // Of a wide limb, the border may cut off a part of the section there.
   while (from > 0 && TouchesAcross(face, path, from, set)) --from;
   const double radius = set.RadiusOf(path[from]);
-  const auto length_from = [&](size_t n) { return set.Between(path[n], path[from]); };
-  size_t back = from;
-  while (back > 0 && length_from(back) < kBackRadii * radius + kBackMargin) --back;
-  if (length_from(back) < kLeastRadii * radius + kLeastMargin) return std::nullopt;
+  const size_t back = BackFrom(path, from, set);
+  if (set.Between(path[back], path[from]) < kLeastRadii * radius + kLeastMargin) {
+    return std::nullopt;
+  }
   Limb limb;
   limb.from = from;
   limb.way = Unit(set.Way(path[back], path[from]));
@@ -196,7 +202,10 @@ std::optional<BorderTips::Limb> BorderTips::LimbBefore(const Face& face,
   if (!last.has_value()) return std::nullopt;
   limb.last = *last;
   limb.start = last->middle;
-  if (before.has_value()) limb.way = Unit(Sum(last->middle, -1, before->middle));
+  if (before.has_value()) {
+    const Coordinates way = Sum(last->middle, -1, before->middle);
+    if (Dot(way, limb.way) > 0) limb.way = Unit(way);
+  }
   return limb;
 }
 
