@@ -18,8 +18,9 @@
 
 namespace {
 
-constexpr std::array<const char*, 8> kPlaces = {".zarray",   ".zattrs", "0/.zarray",     "0.0.0",
-                                                "0/0.0.0.0", "info",    "1/0-4_0-3_0-2", "1.png"};
+constexpr std::array<const char*, 10> kPlaces = {".zarray",   ".zattrs", "0/.zarray",     "0.0.0",
+                                                 "0/0.0.0.0", "info",    "1/0-4_0-3_0-2", "1.png",
+                                                 "zarr.json", "c/0/0/0"};
 
 // A folder of this process, in memory where the system has such a place.
 const std::filesystem::path& Folder() {
@@ -37,7 +38,7 @@ void WriteFiles(std::string_view input) {
     const auto place = static_cast<size_t>(input.front() - '0');
     const size_t end = input.find('\0', 1);
     // Chunks may hold any bytes, so they reach to the end.
-    const bool chunk = place == 3 || place == 4 || place == 6 || place == 7;
+    const bool chunk = place == 3 || place == 4 || place == 6 || place == 7 || place == 9;
     const std::string_view bytes =
         chunk || end == input.npos ? input.substr(1) : input.substr(1, end - 1);
     if (place < kPlaces.size()) {

@@ -255,7 +255,7 @@ skeletonize_mesh = _here.skeletonize_mesh
 def read(path: _Path, **options: Unpack[FileOptions]) -> Union[Image, Mesh, Lattice, Skeleton]:
     """An image (NIfTI, NRRD, TIFF, PNG, MetaImage, npy, npz, vol, ...) or a mesh (OBJ, STL, PLY, OFF,
     glTF, VTK polygon data, GIFTI, FreeSurfer) from a file, as the command line reads it; also
-    compressed by gzip. A folder is read as OME-Zarr 0.4, a Zarr array, a Neuroglancer precomputed
+    compressed by gzip. A folder is read as OME-Zarr (to 0.5), a Zarr array, a Neuroglancer precomputed
     volume or one PNG or TIFF file per slice. A .json file is a result of the command line or of
     `Skeleton.save()`: a `Skeleton` that cannot be shown with its object, coordinates x, y, z. A
     .exr or .bccb file is a `Lattice`.

@@ -1,9 +1,11 @@
 #include "core/import/image/chunk_codec.h"
 
 #include <blosc.h>
+#include <isa-l/crc.h>
 #include <lz4.h>
 #include <zstd.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -91,6 +93,31 @@ absl::Status ExpandChunk(ChunkCodec codec, const std::shared_ptr<const ImageFile
   packed.resize(got);
   if (codec == ChunkCodec::kZstd) return ExpandZstd(packed, into);
   return codec == ChunkCodec::kLz4 ? ExpandLz4(packed, into) : ExpandBlosc(packed, into);
+}
+
+absl::StatusOr<std::string> ReadStored(const ImageFile& file, uint64_t offset, uint64_t length,
+                                       bool has_checksum) {
+  constexpr size_t kChecksumBytes = 4;
+  const uint64_t most = std::numeric_limits<int32_t>::max();
+  if (offset > file.size() || length > std::min(file.size() - offset, most) ||
+      (has_checksum && length < kChecksumBytes)) {
+    return absl::InvalidArgumentError(absl::StrFormat(
+        "%d bytes from byte %d on cannot be a part of the file's %d", length, offset, file.size()));
+  }
+  std::string bytes(static_cast<size_t>(length), '\0');
+  BCCSKEL_ASSIGN_OR_RETURN(const size_t got,
+                           file.ReadAt(offset, std::as_writable_bytes(std::span(bytes))));
+  if (got < length) return absl::InvalidArgumentError("the file ends early");
+  if (!has_checksum) return bytes;
+  uint32_t stated = 0;  // little endian
+  std::memcpy(&stated, bytes.data() + length - kChecksumBytes, kChecksumBytes);
+  if constexpr (std::endian::native == std::endian::big) stated = __builtin_bswap32(stated);
+  bytes.resize(bytes.size() - kChecksumBytes);
+  const uint32_t sum = ~crc32_iscsi(reinterpret_cast<unsigned char*>(bytes.data()),
+                                    static_cast<int>(bytes.size()), ~uint32_t{0});
+  if (sum == stated) return bytes;
+  return absl::InvalidArgumentError(absl::StrFormat(
+      "its bytes have the checksum %08x instead of %08x: it is damaged", sum, stated));
 }
 
 }  // namespace bccskel

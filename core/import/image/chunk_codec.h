@@ -6,8 +6,10 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 
 #include "absl/status/status.h"
+#include "absl/status/statusor.h"
 #include "core/import/image/image_file.h"
 
 namespace bccskel {
@@ -26,6 +28,11 @@ enum class ChunkCodec {
 // Errors: INVALID_ARGUMENT for damaged bytes and for those that expand to fewer or more.
 absl::Status ExpandChunk(ChunkCodec codec, const std::shared_ptr<const ImageFile>& file,
                          std::span<std::byte> into);
+
+// `length` bytes of a file, without the CRC-32C behind them if there is one.
+// Errors: INVALID_ARGUMENT if the file ends before or the bytes do not match their checksum.
+absl::StatusOr<std::string> ReadStored(const ImageFile& file, uint64_t offset, uint64_t length,
+                                       bool has_checksum);
 
 // Expands one chunk of Neuroglancer's compressed segmentation with one channel.
 // `size` and `block`: voxels along x, y and z, positive. `into`: x fastest, little endian, `bytes`

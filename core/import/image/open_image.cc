@@ -178,7 +178,8 @@ absl::StatusOr<std::unique_ptr<ImageSource>> OpenFolder(const std::string& path,
     });
   }
   return absl::InvalidArgumentError(
-      "is a folder, but neither of OME-Zarr (with .zattrs or .zarray) nor precomputed (with info) "
+      "is a folder, but neither of OME-Zarr (with zarr.json, .zattrs or .zarray) nor precomputed "
+      "(with info) "
       "nor of DICOM, PNG or TIFF files");
 }
 

@@ -1,13 +1,15 @@
-// .zarray of Zarr version 2.
+// .zarray of Zarr 2, and what both versions share.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <string_view>
 #include <type_traits>
 #include <utility>
 
+#include "absl/strings/numbers.h"
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
 #include "core/import/image/header_text.h"
@@ -57,8 +59,45 @@ absl::StatusOr<T> FillOf(const Json& value) {
   return BadValue("fill_value", value, "is not a value of the array's type");
 }
 
-absl::Status ReadFill(const Json& value, ZarrArray& array) {
-  return WithVoxelType(array.type, [&]<typename T>(T) -> absl::Status {
+// The bits of a float as Zarr 3 may write them: "0x7fc00000".
+std::optional<uint64_t> BitsOf(const Json& value, size_t bytes) {
+  if (!value.is_string()) return std::nullopt;
+  const auto text = value.get<std::string>();
+  uint64_t bits = 0;
+  const bool is_hex = text.starts_with("0x") && text.size() == 2 + 2 * bytes;
+  return is_hex && absl::SimpleHexAtoi(text, &bits) ? std::optional(bits) : std::nullopt;
+}
+
+absl::StatusOr<ChunkCodec> CodecOf(const Json& compressor) {
+  if (compressor.is_null()) return ChunkCodec::kNone;
+  BCCSKEL_ASSIGN_OR_RETURN(const std::string id,
+                           TextOf("the compressor's id", MemberOf(compressor, "id")));
+  return ZarrCodecOf(id);
+}
+
+}  // namespace
+
+absl::StatusOr<ChunkCodec> ZarrCodecOf(std::string_view name) {
+  if (name == "blosc") return ChunkCodec::kBlosc;
+  if (name == "zstd") return ChunkCodec::kZstd;
+  if (name == "gzip" || name == "zlib") return ChunkCodec::kDeflate;
+  if (name == "lz4") return ChunkCodec::kLz4;
+  return absl::UnimplementedError(
+      BadField("compressor", name, "is not supported; blosc, zstd, gzip, zlib and lz4 are")
+          .message());
+}
+
+absl::Status ReadZarrFill(const Json& value, ZarrArray& array) {
+  const absl::Status read = WithVoxelType(array.type, [&]<typename T>(T) -> absl::Status {
+    if (std::is_floating_point_v<T> || array.halves == StoredHalves::kYes) {
+      if (const auto bits = BitsOf(value, sizeof(T)); bits.has_value()) {
+        for (size_t n = 0; n < sizeof(T); ++n) {
+          const bool low_first = std::endian::native == std::endian::little;
+          array.fill[low_first ? n : sizeof(T) - 1 - n] = static_cast<std::byte>(*bits >> 8 * n);
+        }
+        return absl::OkStatus();
+      }
+    }
     T fill = 0;
     if (array.halves == StoredHalves::kYes) {
       BCCSKEL_ASSIGN_OR_RETURN(const float number, FillOf<float>(value));
@@ -67,38 +106,24 @@ absl::Status ReadFill(const Json& value, ZarrArray& array) {
       BCCSKEL_ASSIGN_OR_RETURN(fill, FillOf<T>(value));
     }
     std::memcpy(array.fill.data(), &fill, sizeof(T));
-    if (array.byte_order != std::endian::native) {
-      std::reverse(array.fill.data(), array.fill.data() + sizeof(T));
-    }
     return absl::OkStatus();
   });
+  if (read.ok() && array.byte_order != std::endian::native) {
+    std::reverse(array.fill.data(), array.fill.data() + VoxelBytes(array.type));
+  }
+  return read;
 }
 
-absl::StatusOr<ChunkCodec> CodecOf(const Json& compressor) {
-  if (compressor.is_null()) return ChunkCodec::kNone;
-  BCCSKEL_ASSIGN_OR_RETURN(const std::string id,
-                           TextOf("the compressor's id", MemberOf(compressor, "id")));
-  if (id == "blosc") return ChunkCodec::kBlosc;
-  if (id == "zstd") return ChunkCodec::kZstd;
-  if (id == "gzip" || id == "zlib") return ChunkCodec::kDeflate;
-  if (id == "lz4") return ChunkCodec::kLz4;
-  return absl::UnimplementedError(
-      BadField("compressor", id, "is not supported; blosc, zstd, gzip, zlib and lz4 are")
-          .message());
-}
-
-absl::Status CheckShape(const ZarrArray& array) {
+absl::Status CheckZarrChunks(const ZarrArray& array, const ImageLimits& limits) {
   constexpr size_t kMostAxes = 8;
   if (array.shape.empty() || array.shape.size() > kMostAxes) {
     return absl::InvalidArgumentError(absl::StrFormat("the array has %d axes, it must have 1 to %d",
                                                       array.shape.size(), kMostAxes));
   }
-  if (array.chunks.size() == array.shape.size()) return absl::OkStatus();
-  return absl::InvalidArgumentError(absl::StrFormat("the array has %d axes, its chunks have %d",
-                                                    array.shape.size(), array.chunks.size()));
-}
-
-absl::Status CheckChunks(const ZarrArray& array, const ImageLimits& limits) {
+  if (array.chunks.size() != array.shape.size()) {
+    return absl::InvalidArgumentError(absl::StrFormat("the array has %d axes, its chunks have %d",
+                                                      array.shape.size(), array.chunks.size()));
+  }
   uint64_t room = limits.max_chunk_bytes / VoxelBytes(array.type);
   for (const int64_t length : array.chunks) {
     if (length < 1) {
@@ -112,8 +137,6 @@ absl::Status CheckChunks(const ZarrArray& array, const ImageLimits& limits) {
       "a chunk holds more than %d bytes, the limit: write smaller chunks", limits.max_chunk_bytes));
 }
 
-}  // namespace
-
 uint64_t ZarrArray::ChunkBytes() const {
   uint64_t bytes = VoxelBytes(type);
   for (const int64_t length : chunks) bytes *= static_cast<uint64_t>(length);
@@ -122,14 +145,14 @@ uint64_t ZarrArray::ChunkBytes() const {
 
 absl::StatusOr<ZarrArray> ParseZarrArray(const Json& metadata, const ImageLimits& limits) {
   const Json& version = MemberOf(metadata, "zarr_format");
-  if (version != 2) return BadValue("zarr_format", version, "is not 2");
+  if (version == 3) return ParseZarr3Array(metadata, limits);
+  if (version != 2) return BadValue("zarr_format", version, "is neither 2 nor 3");
   ZarrArray array;
   BCCSKEL_ASSIGN_OR_RETURN(array.shape, IntegersOf("shape", MemberOf(metadata, "shape")));
   BCCSKEL_ASSIGN_OR_RETURN(array.chunks, IntegersOf("chunks", MemberOf(metadata, "chunks")));
-  BCCSKEL_RETURN_IF_ERROR(CheckShape(array));
   BCCSKEL_RETURN_IF_ERROR(ReadType(MemberOf(metadata, "dtype"), array));
-  BCCSKEL_RETURN_IF_ERROR(CheckChunks(array, limits));
-  BCCSKEL_RETURN_IF_ERROR(ReadFill(MemberOf(metadata, "fill_value"), array));
+  BCCSKEL_RETURN_IF_ERROR(CheckZarrChunks(array, limits));
+  BCCSKEL_RETURN_IF_ERROR(ReadZarrFill(MemberOf(metadata, "fill_value"), array));
   BCCSKEL_ASSIGN_OR_RETURN(array.codec, CodecOf(MemberOf(metadata, "compressor")));
   const Json& filters = MemberOf(metadata, "filters");
   if (!filters.is_null() && !(filters.is_array() && filters.empty())) {
@@ -137,7 +160,9 @@ absl::StatusOr<ZarrArray> ParseZarrArray(const Json& metadata, const ImageLimits
   }
   const Json& order = MemberOf(metadata, "order");
   if (order != "C" && order != "F") return BadValue("order", order, "is neither C nor F");
-  array.last_axis_fastest = order == "C";
+  array.order.resize(array.shape.size());
+  std::iota(array.order.begin(), array.order.end(), size_t{0});
+  if (order == "F") std::reverse(array.order.begin(), array.order.end());
   const Json& separator = MemberOf(metadata, "dimension_separator");
   if (!separator.is_null() && separator != "." && separator != "/") {
     return BadValue("dimension_separator", separator, "is neither . nor /");

@@ -6,7 +6,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "absl/status/statusor.h"
@@ -17,24 +19,44 @@
 
 namespace bccskel {
 
-// What .zarray says of an array, axes in the array's order. README.md names the specification.
+// Zarr 3 may store several chunks in one file, a shard, next to an index of their places.
+struct ZarrShards {
+  std::vector<int64_t> chunks;  // along each axis, of one shard; positive
+  bool index_first = false;     // else it ends the file
+  bool has_checksum = true;     // a CRC-32C behind the index
+};
+
+// What .zarray (Zarr 2) or zarr.json (Zarr 3) states about an array, axes in the array's order.
 struct ZarrArray {
   std::vector<int64_t> shape;
   std::vector<int64_t> chunks;  // as many, positive; their product is below the limit
   VoxelType type = VoxelType::kUint8;
   StoredHalves halves = StoredHalves::kNo;
   std::endian byte_order = std::endian::little;
-  bool last_axis_fastest = true;  // in a chunk: order C
-  char separator = '.';           // in the names of chunks
+  std::vector<size_t> order;  // of the axes in a chunk, the one that varies fastest last
+  std::string key_prefix;     // the name of a chunk is this and its index
+  char separator = '.';       // in the names of chunks
   ChunkCodec codec = ChunkCodec::kNone;
+  bool has_checksum = false;  // a CRC-32C behind each chunk
+  std::optional<ZarrShards> shards;
   std::array<std::byte, 8> fill = {};  // the bytes of one voxel, in byte_order
+  std::vector<char> axes;              // the names, if all are 't', 'c', 'z', 'y' or 'x'
 
   uint64_t ChunkBytes() const;
 };
 
-// Errors: INVALID_ARGUMENT (malformed, names the field), UNIMPLEMENTED (filters, codecs and types
-//         that are not supported), RESOURCE_EXHAUSTED (chunks over the limit).
+// `metadata`: of either version.
+// Errors: INVALID_ARGUMENT (malformed, names the field), UNIMPLEMENTED (filters, codecs, types and
+//         extensions that are not supported), RESOURCE_EXHAUSTED (chunks over the limit).
 absl::StatusOr<ZarrArray> ParseZarrArray(const nlohmann::json& metadata, const ImageLimits& limits);
+// The same for Zarr 3 alone.
+absl::StatusOr<ZarrArray> ParseZarr3Array(const nlohmann::json& metadata,
+                                          const ImageLimits& limits);
+
+// Shared by both versions. Errors: as ParseZarrArray().
+absl::Status CheckZarrChunks(const ZarrArray& array, const ImageLimits& limits);
+absl::Status ReadZarrFill(const nlohmann::json& value, ZarrArray& array);
+absl::StatusOr<ChunkCodec> ZarrCodecOf(std::string_view name);
 
 // One level of a pyramid.
 struct ZarrLevel {
@@ -45,7 +67,8 @@ struct ZarrLevel {
   std::string unit;
 };
 
-// The chosen level of the first image that an OME group's .zattrs describe (versions 0.1 to 0.4).
+// The chosen level of the first image that the attributes of an OME group describe (versions 0.1 to
+// 0.5).
 // Errors: INVALID_ARGUMENT (malformed, a level that is not there), UNIMPLEMENTED (other versions,
 //         axes and transformations).
 absl::StatusOr<ZarrLevel> ParseMultiscales(const nlohmann::json& attributes,

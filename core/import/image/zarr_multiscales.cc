@@ -102,11 +102,13 @@ absl::StatusOr<ZarrLevel> ParseMultiscales(const Json& attributes, const ImageOp
         "as FOLDER/0");
   }
   const Json& image = images[0];
-  const Json& version = MemberOf(image, "version");
-  if (!version.is_null() && version != "0.1" && version != "0.2" && version != "0.3" &&
-      version != "0.4") {
+  // Of the image, since 0.5 of the group.
+  const Json& own = MemberOf(image, "version");
+  const Json& version = own.is_null() ? MemberOf(attributes, "version") : own;
+  constexpr std::array<const char*, 5> kVersions = {"0.1", "0.2", "0.3", "0.4", "0.5"};
+  if (!version.is_null() && std::ranges::find(kVersions, version) == kVersions.end()) {
     return absl::UnimplementedError(
-        BadValue("OME-Zarr version", version, "is not supported; 0.1 to 0.4 are").message());
+        BadValue("OME-Zarr version", version, "is not supported; 0.1 to 0.5 are").message());
   }
   const Json& datasets = MemberOf(image, "datasets");
   if (!datasets.is_array() || datasets.empty()) {
