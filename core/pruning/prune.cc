@@ -117,16 +117,11 @@ void CollapsePaths(ThinSet& set, Significance& significance, double threshold,
 
 Significance SignificanceIn(const Volume& space, const ExactRadius& radius, const PrunedObject& in,
                             const SurfaceNoise& noise) {
-  std::optional<TipExtender> extender;
   std::optional<FirmDepth> firm_depth;
-  // A voxel's edge is longer than the part of a limb that thinning omits; its pit is a voxel deep.
-  if (in.surface_step == 1) {
-    extender.emplace(space, radius);
-  } else if (noise.roughness > 0) {
-    firm_depth.emplace(space, radius);
-  }
-  return Significance(in.object, noise, std::move(extender), std::move(firm_depth), space.window(),
-                      in.cuts);
+  // A voxel's pit is a voxel deep.
+  if (in.surface_step != 1 && noise.roughness > 0) firm_depth.emplace(space, radius);
+  return Significance(in.object, noise, TipExtender(space, radius, in.surface_step),
+                      std::move(firm_depth), space.window(), in.cuts);
 }
 
 }  // namespace

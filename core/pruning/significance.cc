@@ -338,7 +338,7 @@ double Significance::ValueOf(const Part& part, const Sections& sections, double 
   return BeyondNoise(out, root.radius, part.way) / (root.radius + kWidthShare * part.wider);
 }
 
-// Extends the path beyond its end only if that may change the decision: it adds at most its length
+// Beyond sheets, extends the path only if that may change the decision: it adds at most its length
 // and the rise of its radius. The same holds for pits, which only make radii smaller.
 Run Significance::RunOf(const ThinSet& set, BranchPath& path) {
   constexpr double kMost = TipExtender::kLongest + kSteepness * TipExtender::kLargestRise;
@@ -347,6 +347,7 @@ Run Significance::RunOf(const ThinSet& set, BranchPath& path) {
   if (way >= path.radii.back() && ExtendAcrossBorder(border_, scale_, path)) {
     return LargestRun(set, path, noise_);
   }
+  if (extender_.has_value()) extender_->AppendOverSheet(path);
   const Run run = LargestRun(set, path, noise_);
   if (run.ratio > kSureRatio) return run;
   if (firm_depth_.has_value() && run.ratio >= kLeastRatio) {

@@ -12,6 +12,11 @@ namespace {
 constexpr size_t kAimPoints = 10;         // the aim is the direction of the last ten points
 constexpr double kLeastStepCosine = 0.4;  // between the aim and a step
 constexpr double kAimWeight = 0.5;        // weight of that cosine against the rise of the radius
+constexpr double kLeastSheet = 3;         // radius in steps of the surface
+constexpr double kThickerRoot = 1.3;      // least radius of the junction, in radii of the sheet
+constexpr double kSheetStep = 2;          // lattice units
+constexpr double kSheetSlope = 0.25;      // the largest fall of the radius per unit
+constexpr double kLongestSheet = 400;     // lattice units
 constexpr size_t kWayReach = 5;           // points on either side that give a path's direction
 constexpr double kBorderMargin = 1;       // lattice units
 constexpr double kBorderCosine = 0.7;  // least cosine between the path and the way out of the image
@@ -19,10 +24,14 @@ constexpr double kRadiiBeyond = 2;     // length of the extension
 
 }  // namespace
 
-TipExtender::TipExtender(const Volume& object, const ExactRadius& radius)
-    : scale_(AxisScaleOf(object.placement())), bricks_(object), radius_(radius) {}
+TipExtender::TipExtender(const Volume& object, const ExactRadius& radius, double surface_step)
+    : scale_(AxisScaleOf(object.placement())),
+      surface_step_(surface_step),
+      bricks_(object),
+      radius_(radius) {}
 
 void TipExtender::Append(BranchPath& path) {
+  if (surface_step_ != 1) return;
   const size_t last = path.points.size() - 1;
   const Coordinates end = PlaceOf(path.points[last], scale_);
   const Coordinates back = PlaceOf(path.points[last - std::min(last, kAimPoints)], scale_);
@@ -45,6 +54,21 @@ void TipExtender::Append(BranchPath& path) {
     if (!best.has_value() || best->radius > largest) return;
     path.points.push_back(best->to);
     path.radii.push_back(best->radius);
+  }
+}
+
+void TipExtender::AppendOverSheet(BranchPath& path) {
+  const Coordinates end = PlaceOf(path.points.back(), scale_);
+  const Coordinates way = DirectionAt(path.points, path.points.size() - 1, scale_);
+  const float radius = path.radii.back();
+  if (radius < kLeastSheet * surface_step_ || path.radii[0] < kThickerRoot * radius + 0.5) return;
+  for (double out = kSheetStep; out <= kLongestSheet; out += kSheetStep) {
+    const LatticePoint to = PointNear(Sum(end, out, way), scale_);
+    if (!bricks_.Contains(to)) return;
+    const float there = radius_.At(to);
+    if (there < radius - kSheetSlope * out || there > radius + kLargestRise) return;
+    path.points.push_back(to);
+    path.radii.push_back(there);
   }
 }
 

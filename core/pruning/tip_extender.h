@@ -29,11 +29,19 @@ class TipExtender {
   static constexpr double kLongest = 3;        // lattice units
   static constexpr double kLargestRise = 0.5;  // of the radius: beyond, another limb begins
 
-  // Needs: `radius` belongs to `object`, which outlives this.
-  TipExtender(const Volume& object, const ExactRadius& radius);
+  // Needs: `radius` belongs to `object`, which outlives this. `surface_step`: that of the object's
+  //        surface, lattice units; above 1 it is longer than the part of a limb that thinning
+  //        omits.
+  TipExtender(const Volume& object, const ExactRadius& radius, double surface_step = 1);
 
-  // Needs: a path of at least two points.
+  // Adds nothing if a step of the surface is longer than 1. Needs: a path of at least two points.
   void Append(BranchPath& path);
+  // Continues straight on over the sheet in which the path ends, as long as the radius hardly
+  // falls. Where a limb that is deeper than wide is cut square, such as the tooth of a gear,
+  // thinning ends the curve half the depth before its rim or leads it into a corner, depending on
+  // the pose. Adds nothing to round limbs, to ribs of sheets, which leave nothing thicker, and to
+  // sheets as thin as rows of bumps. Needs: as Append().
+  void AppendOverSheet(BranchPath& path);
 
  private:
   struct Step {
@@ -43,6 +51,7 @@ class TipExtender {
   };
 
   AxisScale scale_;
+  double surface_step_;
   NearbyBricks bricks_;
   ExactRadius radius_;
 };
