@@ -103,7 +103,7 @@ Volume GoneAfter(int32_t shell, int32_t last_shell, const Volume& object,
     if (number <= shell || number > last_shell) continue;
     for (size_t n = 0; n < points.brick_count(); ++n) {
       BrickBits& brick = builder.Brick(points.keys()[n]);
-      for (size_t w = 0; w < brick.words.size(); ++w) brick.words[w] |= points.bricks()[n].words[w];
+      brick |= points.bricks()[n];
     }
   }
   absl::StatusOr<Volume> later = std::move(builder).Build();

@@ -96,12 +96,6 @@ BrickBits Flood(const BrickBits& seed, const BrickBits& open) {
   return component;
 }
 
-BrickBits Without(const BrickBits& points, const BrickBits& some) {
-  BrickBits rest;
-  for (size_t k = 0; k < 8; ++k) rest.words[k] = points.words[k] & ~some.words[k];
-  return rest;
-}
-
 BrickBits FirstPoint(const BrickBits& points) {
   BrickBits first;
   for (size_t k = 0; k < 8; ++k) {
@@ -116,7 +110,7 @@ std::vector<BrickBits> FindComponents(const BrickBits& points) {
   std::vector<BrickBits> components;
   for (BrickBits rest = points; !rest.Empty();) {
     components.push_back(Flood(FirstPoint(rest), rest));
-    rest = Without(rest, components.back());
+    rest &= ~components.back();
   }
   return components;
 }
@@ -147,7 +141,7 @@ BrickFragments SplitBrick(const BrickBits& points) {
   const std::vector<BrickBits> components = FindComponents(points);
   const size_t main = LargestOf(components);
   BrickFragments split;
-  split.fragments = Without(points, components[main]);
+  split.fragments = points & ~components[main];
   split.components = static_cast<int>(components.size());
   uint8_t label = 0;
   for (size_t n = 0; n < components.size(); ++n) {

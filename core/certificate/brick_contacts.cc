@@ -56,7 +56,7 @@ BrickContacts ComputeContacts(Sublattice sublattice) {
       const BrickBits& points = touching[p];
       if (points.Empty()) continue;
       contacts.along[static_cast<size_t>(d)].push_back({static_cast<int>(p), points});
-      for (size_t k = 0; k < 8; ++k) contacts.points_at[p].words[k] |= points.words[k];
+      contacts.points_at[p] |= points;
     }
   }
   for (size_t p = 0; p < around.size(); ++p) contacts.beside[p] = PositionsBeside(around, p);

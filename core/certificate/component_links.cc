@@ -20,12 +20,6 @@ constexpr PositionMask ComputeLinkedFrom(Sublattice sublattice) {
 constexpr std::array<PositionMask, 2> kLinkedFrom = {ComputeLinkedFrom(Sublattice::kEven),
                                                      ComputeLinkedFrom(Sublattice::kOdd)};
 
-BrickBits Intersection(const BrickBits& a, const BrickBits& b) {
-  BrickBits both;
-  for (size_t k = 0; k < 8; ++k) both.words[k] = a.words[k] & b.words[k];
-  return both;
-}
-
 // The points of a set without a predecessor along x, y or z: at least one of each connected part.
 BrickBits FirstOfParts(const BrickBits& points) {
   constexpr uint64_t kFirstOfRows = 0x0001000100010001;
@@ -152,11 +146,11 @@ int64_t ComponentLinks::LinkFragments(BrickIndex n) {
 int64_t ComponentLinks::LinkFragmentsAlong(BrickIndex n, Direction d,
                                            const BrickBits& having_neighbor) {
   const Sublattice sublattice = SublatticeAt(n);
-  const BrickBits points = Intersection(components_.fragments(n)->fragments, having_neighbor);
+  const BrickBits points = components_.fragments(n)->fragments & having_neighbor;
   if (points.Empty()) return 0;
   int64_t joined = 0;
   for (const BrickContact& contact : ContactsOf(sublattice).along[static_cast<size_t>(d.bit())]) {
-    const BrickBits leaving = Intersection(points, contact.points);
+    const BrickBits leaving = points & contact.points;
     if (leaving.Empty()) continue;
     const BrickIndex other = NeighborAt(n, contact.position);
     FirstOfParts(leaving).ForEachSetBit([&](int bit) {
@@ -169,7 +163,7 @@ int64_t ComponentLinks::LinkFragmentsAlong(BrickIndex n, Direction d,
 
 int64_t ComponentLinks::LinkFragmentsToGap(BrickIndex n, int position, GapPlaces& places) {
   const BrickBits& contact = ContactsOf(SublatticeAt(n)).points_at[static_cast<size_t>(position)];
-  const BrickBits touching = Intersection(components_.fragments(n)->fragments, contact);
+  const BrickBits touching = components_.fragments(n)->fragments & contact;
   if (touching.Empty()) return 0;
   const size_t gap = GapAt(n, position, places);
   int64_t joined = 0;

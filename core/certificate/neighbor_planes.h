@@ -34,6 +34,13 @@ inline NeighborMask NeighborsAt(int bit, const NeighborPlanes& planes) {
   return static_cast<NeighborMask>(mask);
 }
 
+// The points that lack a neighbor.
+inline BrickBits BorderOf(const BrickBits& points, const NeighborPlanes& planes) {
+  BrickBits surrounded = points;
+  for (const BrickBits& plane : planes) surrounded &= plane;
+  return points & ~surrounded;
+}
+
 // The bricks around brick `n`, which is of `sublattice`, that hold a neighbor of one of its points.
 // Shapes: `bricks` has all that `neighbors`, the neighborhood of n, names.
 PositionMask FindTouchedBricks(Sublattice sublattice, std::span<const BrickBits> bricks,

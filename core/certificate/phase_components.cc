@@ -9,7 +9,7 @@ PhaseComponents::PhaseComponents(const Volume& object, Phase phase, const exec::
       mains_(object.brick_count() + 1),
       fragments_(object.brick_count() + 1, nullptr),
       store_(static_cast<size_t>(context.threads())) {
-  if (phase == Phase::kBackground) mains_.back().words.fill(~uint64_t{0});
+  if (phase == Phase::kBackground) mains_.back() = ~BrickBits();
   count_ = SumOverBricks(context, object.brick_count(), [&](int worker, exec::Share batch) {
     const size_t size = batch.end - batch.begin;
     TestConnectivity(object.bricks().subspan(batch.begin, size), phase,
@@ -30,7 +30,7 @@ int64_t PhaseComponents::CountComponents(int worker, BrickIndex n) {
   const BrickFragments& split =
       store_[static_cast<size_t>(worker)].emplace_back(SplitBrick(mains_[n]));
   fragments_[n] = &split;
-  for (size_t k = 0; k < 8; ++k) mains_[n].words[k] &= ~split.fragments.words[k];
+  mains_[n] &= ~split.fragments;
   return split.components;
 }
 

@@ -37,10 +37,7 @@ class PhaseComponents {
   // which is all background.
   std::span<const BrickBits> mains() const { return mains_; }
   BrickBits PointsOf(BrickIndex n) const {
-    BrickBits points = mains_[n];
-    if (fragments_[n] == nullptr) return points;
-    for (size_t k = 0; k < 8; ++k) points.words[k] |= fragments_[n]->fragments.words[k];
-    return points;
+    return fragments_[n] == nullptr ? mains_[n] : mains_[n] | fragments_[n]->fragments;
   }
 
  private:

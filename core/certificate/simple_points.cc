@@ -4,6 +4,7 @@
 
 #include "core/certificate/brick_sum.h"
 #include "core/certificate/certificate.h"
+#include "core/certificate/neighbor_planes.h"
 #include "core/topology/neighborhood.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -39,14 +40,12 @@ HWY_INLINE int64_t CountAmong(const Plane& candidates, SimplePoints which, const
                               const Plane (&planes)[kNeighborCount]) {
   BrickBits rest;
   StorePlane(candidates, rest);
-  for (size_t k = 0; spared != nullptr && k < 8; ++k) rest.words[k] &= ~spared->words[k];
-  std::array<BrickBits, kNeighborCount> neighbors;
+  if (spared != nullptr) rest &= ~*spared;
+  NeighborPlanes neighbors;
   for (size_t d = 0; d < kNeighborCount; ++d) StorePlane(planes[d], neighbors[d]);
   int64_t count = 0;
   rest.ForEachSetBit([&](int bit) {
-    unsigned mask = 0;
-    for (size_t d = 0; d < kNeighborCount; ++d) mask |= (neighbors[d].Test(bit) ? 1u : 0u) << d;
-    const auto around = static_cast<NeighborMask>(mask);
+    const NeighborMask around = NeighborsAt(bit, neighbors);
     count += (which == SimplePoints::kAll ? IsSimple(around) : IsSimpleNonEnd(around)) ? 1 : 0;
   });
   return count;

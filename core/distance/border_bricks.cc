@@ -12,12 +12,6 @@ namespace {
 
 constexpr LatticePoint kOneCell = {2, 2, 2};
 
-BrickBits BackgroundIn(const BrickBits& object) {
-  BrickBits background;
-  for (size_t k = 0; k < background.words.size(); ++k) background.words[k] = ~object.words[k];
-  return background;
-}
-
 LatticePoint Lower(LatticePoint a, LatticePoint b) {
   return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
 }
@@ -83,7 +77,7 @@ void BorderBricks::AddBackgroundOf(const Volume& object, BrickIndex n) {
   const BrickBits& bits = object.bricks()[n];
   if (IsFull(bits)) return;
   const BrickCoordinates brick = object.keys()[n].coordinates();
-  Add({n, PointOf(brick, 0)}, BoxAround(BackgroundIn(bits), brick));
+  Add({n, PointOf(brick, 0)}, BoxAround(~bits, brick));
 }
 
 // Adds background of bricks that are not stored, as far as it may lie next to points of brick n.

@@ -64,13 +64,7 @@ std::vector<LatticePoint> WaysInBall(double radius, const AxisScale& scale) {
 template <typename Visit>
 void ForEachSurfacePoint(const Volume& object, Visit visit) {
   for (BrickIndex n = 0; n < object.brick_count(); ++n) {
-    BrickBits surface;
-    for (const BrickBits& plane : NeighborPlanesOf(object, n)) {
-      for (size_t w = 0; w < plane.words.size(); ++w) surface.words[w] |= ~plane.words[w];
-    }
-    for (size_t w = 0; w < surface.words.size(); ++w) {
-      surface.words[w] &= object.bricks()[n].words[w];
-    }
+    const BrickBits surface = BorderOf(object.bricks()[n], NeighborPlanesOf(object, n));
     const BrickCoordinates at = object.keys()[n].coordinates();
     surface.ForEachSetBit([&](int bit) { visit(PointOf(at, bit)); });
   }
@@ -176,9 +170,7 @@ absl::StatusOr<Volume> OutOfReach(const Volume& object, double radius, exec::Mem
   const Volume within = WithRoomAround(object, room);
   exec::MemoryShare share(memory);
   BCCSKEL_ASSIGN_OR_RETURN(std::vector<BrickKey> keys, BricksToLookAt(within, room, share));
-  BrickBits all;
-  all.words.fill(~uint64_t{0});
-  std::vector<BrickBits> whole(keys.size(), all);
+  std::vector<BrickBits> whole(keys.size(), ~BrickBits());
   const Volume bricks = Volume::FromSortedBricks(within.extent(), within.placement(),
                                                  std::move(keys), std::move(whole));
   BCCSKEL_ASSIGN_OR_RETURN(const Volume closed,

@@ -31,15 +31,14 @@ void ForEachBrickOf(const Volume& a, const Volume& b, Visit visit) {
   }
 }
 
-// `join` combines a word of each into one.
+// `join` combines a brick of each into one.
 template <typename Join>
 Volume Joined(const Volume& a, const Volume& b, Join join) {
   std::vector<BrickKey> keys;
   std::vector<BrickBits> bricks;
   ForEachBrickOf(a, b, [&](BrickKey key, const BrickBits& in_a, const BrickBits& in_b) {
     keys.push_back(key);
-    BrickBits& bits = bricks.emplace_back();
-    for (size_t k = 0; k < 8; ++k) bits.words[k] = join(in_a.words[k], in_b.words[k]);
+    bricks.push_back(join(in_a, in_b));
   });
   return Volume::FromSortedBricks(a.extent(), a.placement(), std::move(keys), std::move(bricks));
 }
@@ -68,11 +67,11 @@ std::vector<BrickKey> Widened(const std::vector<BrickKey>& keys, int32_t reach, 
 }  // namespace
 
 Volume Union(const Volume& a, const Volume& b) {
-  return Joined(a, b, [](uint64_t x, uint64_t y) { return x | y; });
+  return Joined(a, b, [](const BrickBits& x, const BrickBits& y) { return x | y; });
 }
 
 Volume Difference(const Volume& a, const Volume& b) {
-  return Joined(a, b, [](uint64_t x, uint64_t y) { return x & ~y; });
+  return Joined(a, b, [](const BrickBits& x, const BrickBits& y) { return x & ~y; });
 }
 
 BrickCoordinates RoomFor(double reach) {

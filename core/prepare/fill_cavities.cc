@@ -54,7 +54,7 @@ uint64_t FillStored(ComponentSets& background, std::vector<BrickBits>& bricks,
       const BrickBits found = background.PointsWhere(static_cast<BrickIndex>(n), enclosed);
       if (found.Empty()) continue;
       points += static_cast<int64_t>(found.Count());
-      for (size_t k = 0; k < 8; ++k) bricks[n].words[k] |= found.words[k];
+      bricks[n] |= found;
     }
     return points;
   });
@@ -64,8 +64,6 @@ uint64_t FillStored(ComponentSets& background, std::vector<BrickBits>& bricks,
 // The stored bricks and the full bricks between them.
 Volume WithWholeBricks(const Volume& object, std::vector<BrickBits> stored,
                        const std::vector<BrickKey>& whole) {
-  BrickBits all;
-  all.words.fill(~uint64_t{0});
   std::vector<BrickKey> keys;
   std::vector<BrickBits> bricks;
   keys.reserve(stored.size() + whole.size());
@@ -74,7 +72,7 @@ Volume WithWholeBricks(const Volume& object, std::vector<BrickBits> stored,
   for (size_t n = 0; n < stored.size(); ++n) {
     for (; next != whole.end() && *next < object.keys()[n]; ++next) {
       keys.push_back(*next);
-      bricks.push_back(all);
+      bricks.push_back(~BrickBits());
     }
     keys.push_back(object.keys()[n]);
     bricks.push_back(stored[n]);

@@ -23,8 +23,7 @@ class PeeledPoints {
     for (size_t n = 0; n < before_.size(); ++n) {
       if (before_[n] == now[n]) continue;
       keys.push_back(object_.keys()[n]);
-      BrickBits& bits = gone.emplace_back(before_[n]);
-      for (size_t w = 0; w < bits.words.size(); ++w) bits.words[w] &= ~now[n].words[w];
+      gone.push_back(before_[n] & ~now[n]);
       before_[n] = now[n];
     }
     return Volume::FromSortedBricks(object_.extent(), object_.placement(), std::move(keys),

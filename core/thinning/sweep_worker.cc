@@ -19,10 +19,6 @@ size_t FirstFromLayer(const ThinningState& state, int32_t layer) {
   return static_cast<size_t>(first - state.keys.begin());
 }
 
-void Take(const BrickBits& points, BrickBits& from) {
-  for (size_t k = 0; k < from.words.size(); ++k) from.words[k] &= ~points.words[k];
-}
-
 // The number of slabs at a border that cannot complete a pass before the border does: the first one
 // may be one step ahead of the border, the second two steps, and so on.
 size_t WaitingSlabs(int steps) { return static_cast<size_t>(std::max(steps - 1, 0)); }
@@ -168,7 +164,7 @@ void MarkStubble(StubblePolicy policy, ThinningState& state, std::span<DirtyMask
   for (const MarkedBrick& m : part.ends) {
     const JudgedEnds judged = JudgeEnds(state, m, policy);
     if (judged.stay != m.marks) dirty[m.brick] |= kEndPointsDirty;
-    Take(judged.stay, state.candidates[m.brick]);
+    state.candidates[m.brick] &= ~judged.stay;
     if (judged.stubble.Empty()) continue;
     *part.marks.Room(1) = {judged.stubble, m.brick};
     part.marks.Add(1);

@@ -52,10 +52,7 @@ void SymmetricRule::KeepIsthmuses(int32_t pass, const BrickLists& bricks, MarkBu
 
 // Removes points from the candidates for good.
 void SymmetricRule::Keep(int32_t pass, std::span<const MarkedBrick> points) {
-  for (const MarkedBrick& m : points) {
-    BrickBits& candidates = state_.candidates[m.brick];
-    for (size_t k = 0; k < m.marks.words.size(); ++k) candidates.words[k] &= ~m.marks.words[k];
-  }
+  for (const MarkedBrick& m : points) state_.candidates[m.brick] &= ~m.marks;
   const std::lock_guard lock(births_mutex_);
   for (const MarkedBrick& m : points) births_.push_back({m, pass});
 }

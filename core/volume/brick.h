@@ -23,6 +23,21 @@ struct alignas(64) BrickBits {
   std::array<uint64_t, 8> words = {};
 
   friend bool operator==(const BrickBits&, const BrickBits&) = default;
+  BrickBits& operator|=(const BrickBits& other) {
+    for (size_t k = 0; k < words.size(); ++k) words[k] |= other.words[k];
+    return *this;
+  }
+  BrickBits& operator&=(const BrickBits& other) {
+    for (size_t k = 0; k < words.size(); ++k) words[k] &= other.words[k];
+    return *this;
+  }
+  BrickBits operator|(const BrickBits& other) const { return BrickBits(*this) |= other; }
+  BrickBits operator&(const BrickBits& other) const { return BrickBits(*this) &= other; }
+  BrickBits operator~() const {
+    BrickBits rest;
+    for (size_t k = 0; k < words.size(); ++k) rest.words[k] = ~words[k];
+    return rest;
+  }
 
   bool Empty() const {
     uint64_t any = 0;

@@ -38,13 +38,10 @@ absl::Status CheckBrick(const LatticeExtent& extent, BrickKey key, const BrickBi
         absl::StrFormat("brick (%d, %d, %d) lies outside the extent of %d x %d x %d cells",
                         brick.bx, brick.by, brick.bz, extent.nx, extent.ny, extent.nz));
   }
-  const BrickBits inside = InsideMask(extent, brick);
-  for (size_t k = 0; k < bits.words.size(); ++k) {
-    if ((bits.words[k] & ~inside.words[k]) != 0) {
-      return absl::InvalidArgumentError(
-          absl::StrFormat("brick (%d, %d, %d) has points outside the extent of %d x %d x %d cells",
-                          brick.bx, brick.by, brick.bz, extent.nx, extent.ny, extent.nz));
-    }
+  if (!(bits & ~InsideMask(extent, brick)).Empty()) {
+    return absl::InvalidArgumentError(
+        absl::StrFormat("brick (%d, %d, %d) has points outside the extent of %d x %d x %d cells",
+                        brick.bx, brick.by, brick.bz, extent.nx, extent.ny, extent.nz));
   }
   return absl::OkStatus();
 }

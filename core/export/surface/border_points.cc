@@ -5,17 +5,6 @@
 namespace bccskel {
 namespace {
 
-// The points that lack a neighbor.
-BrickBits BorderOf(const BrickBits& points, const NeighborPlanes& planes) {
-  BrickBits border;
-  for (size_t word = 0; word < border.words.size(); ++word) {
-    uint64_t surrounded = ~uint64_t{0};
-    for (const BrickBits& plane : planes) surrounded &= plane.words[word];
-    border.words[word] = points.words[word] & ~surrounded;
-  }
-  return border;
-}
-
 NeighborMask BackgroundAt(int bit, const NeighborPlanes& planes) {
   return static_cast<NeighborMask>(kAllNeighbors ^ NeighborsAt(bit, planes));
 }

@@ -41,8 +41,7 @@ void KeepThoseWithoutOddNeighbors(const Volume& object, const BrickCoordinates& 
   // Most have the one in the same cell; the others are looked up one by one.
   const BrickKey odd({brick.bx, brick.by, brick.bz, Sublattice::kOdd});
   if (const auto found = object.Find(odd)) {
-    const BrickBits& beside = object.bricks()[*found];
-    for (size_t w = 0; w < points.words.size(); ++w) points.words[w] &= ~beside.words[w];
+    points &= ~object.bricks()[*found];
   }
   const BrickBits candidates = points;
   candidates.ForEachSetBit([&](int bit) {
