@@ -102,8 +102,7 @@ Volume GoneAfter(int32_t shell, int32_t last_shell, const Volume& object,
   for (const auto& [number, points] : shells) {
     if (number <= shell || number > last_shell) continue;
     for (size_t n = 0; n < points.brick_count(); ++n) {
-      BrickBits& brick = builder.Brick(points.keys()[n]);
-      brick |= points.bricks()[n];
+      builder.Brick(points.keys()[n]) |= points.bricks()[n];
     }
   }
   absl::StatusOr<Volume> later = std::move(builder).Build();

@@ -2,6 +2,7 @@
 #define BCCSKEL_CORE_LATTICE_DIRECTIONS_H_
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <optional>
 
@@ -48,6 +49,21 @@ class Direction {
  private:
   uint8_t bit_;
 };
+
+constexpr NeighborMask With(NeighborMask mask, Direction d) {
+  return static_cast<NeighborMask>(mask | d.mask());
+}
+constexpr NeighborMask Without(NeighborMask mask, Direction d) {
+  return static_cast<NeighborMask>(mask & ~d.mask());
+}
+
+// Calls visit(Direction) for the directions in `mask`, in order.
+template <typename Visit>
+void ForEachDirection(NeighborMask mask, Visit visit) {
+  for (unsigned rest = mask; rest != 0; rest &= rest - 1) {
+    visit(Direction(std::countr_zero(rest)));
+  }
+}
 
 // One of the eight thinning directions of D8.
 class DiagonalDirection {

@@ -90,19 +90,19 @@ class TunnelFiller {
     Piece& piece = PieceOf(p);
     if (cavities_filled_.Contains(p)) piece.refused = true;
     NeighborMask mask = 0;
-    for (int n = 0; n < kNeighborCount; ++n) {
-      const LatticePoint q = p + Direction(n).offset();
+    ForEachDirection(kAllNeighbors, [&](Direction d) {
+      const LatticePoint q = p + d.offset();
       if (object_.Contains(q)) {
-        mask = static_cast<NeighborMask>(mask | Direction(n).mask());
+        mask = With(mask, d);
         const size_t component = components.ComponentOf(object_, q);
         if (piece.touches == Piece::kNone) piece.touches = component;
         if (piece.touches != component) piece.refused = true;
       } else if (cavities_filled_.Contains(q)) {
         piece.refused = true;
       } else if (pieces_.Contains(q) && ComesBefore(q, p)) {
-        mask = static_cast<NeighborMask>(mask | Direction(n).mask());
+        mask = With(mask, d);
       }
-    }
+    });
     piece.euler += EulerOfJoining(mask);
   }
 

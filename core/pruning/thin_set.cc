@@ -28,32 +28,28 @@ ThinSet::ThinSet(const ThinSkeleton& skeleton, const exec::Context& context)
 
 NeighborMask ThinSet::NeighborsAround(LatticePoint p) const {
   NeighborMask mask = 0;
-  for (int bit = 0; bit < kNeighborCount; ++bit) {
-    const Direction d(bit);
-    if (Contains(p + d.offset())) mask |= d.mask();
-  }
+  ForEachDirection(kAllNeighbors, [&](Direction d) {
+    if (Contains(p + d.offset())) mask = With(mask, d);
+  });
   return mask;
 }
 
 void ThinSet::Add(LatticePoint p, float radius) {
   const NeighborMask neighbors = NeighborsAround(p);
   points_.Set(p, {radius, 0, neighbors});
-  for (int bit = 0; bit < kNeighborCount; ++bit) {
-    const Direction d(bit);
-    if ((neighbors & d.mask()) == 0) continue;
-    points_.Find(p + d.offset())->neighbors |= d.Opposite().mask();
-  }
+  ForEachDirection(neighbors, [&](Direction d) {
+    NeighborMask& mask = points_.Find(p + d.offset())->neighbors;
+    mask = With(mask, d.Opposite());
+  });
 }
 
 void ThinSet::Remove(LatticePoint p) {
   const NeighborMask neighbors = NeighborsOf(p);
   points_.Remove(p);
-  for (int bit = 0; bit < kNeighborCount; ++bit) {
-    const Direction d(bit);
-    if ((neighbors & d.mask()) == 0) continue;
+  ForEachDirection(neighbors, [&](Direction d) {
     NeighborMask& mask = points_.Find(p + d.offset())->neighbors;
-    mask = static_cast<NeighborMask>(mask & ~d.Opposite().mask());
-  }
+    mask = Without(mask, d.Opposite());
+  });
 }
 
 std::vector<LatticePoint> ThinSet::Ends() const {

@@ -102,9 +102,7 @@ class ThinSet {
 // Calls visit(LatticePoint) for the neighbors in `mask`, in the order of kDirections14.
 template <typename Visit>
 void ForEachNeighbor(LatticePoint p, NeighborMask mask, Visit visit) {
-  for (unsigned rest = mask; rest != 0; rest &= rest - 1) {
-    visit(p + kDirections14[static_cast<size_t>(std::countr_zero(rest))]);
-  }
+  ForEachDirection(mask, [&](Direction d) { visit(p + d.offset()); });
 }
 
 }  // namespace bccskel

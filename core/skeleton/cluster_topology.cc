@@ -62,19 +62,6 @@ NeighborMask BackgroundOf(NeighborMask mask) {
   return static_cast<NeighborMask>(~mask & kAllNeighbors);
 }
 
-// The component of `start` among the neighbors in `mask`.
-NeighborMask ComponentAround(NeighborMask start, NeighborMask mask) {
-  unsigned component = start;
-  for (unsigned fresh = start; fresh != 0;) {
-    unsigned reached = 0;
-    ForEachDirection(static_cast<NeighborMask>(fresh),
-                     [&](Direction d) { reached |= NeighborsAmongN14(d); });
-    fresh = reached & mask & ~component;
-    component |= fresh;
-  }
-  return static_cast<NeighborMask>(component);
-}
-
 struct Patch {
   PointIndex point;
   NeighborMask background;  // one component

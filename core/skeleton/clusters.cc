@@ -38,7 +38,7 @@ void Clusters::Classify(const ThinPoints& points, StopPoll& poll) {
     if (is_single[p] != 0) continue;
     ForEachDirection(points.mask(p), [&](Direction d) {
       if (is_single[points.Neighbor(p, d)] != 0) return;
-      inner_masks_[p] = static_cast<NeighborMask>(inner_masks_[p] | d.mask());
+      inner_masks_[p] = With(inner_masks_[p], d);
     });
   }
 }

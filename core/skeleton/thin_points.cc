@@ -50,7 +50,7 @@ ThinPoints::ThinPoints(const ThinPoints& all, std::span<const PointIndex> some, 
     ForEachDirection(all.masks_[some[n]], [&](Direction d) {
       const PointIndex neighbor = place[all.Neighbor(some[n], d)];
       if (neighbor == 0) return;
-      masks_[n] = static_cast<NeighborMask>(masks_[n] | d.mask());
+      masks_[n] = With(masks_[n], d);
       neighbors_[n][static_cast<size_t>(d.bit())] = neighbor - 1;
     });
   }
@@ -115,8 +115,8 @@ void ThinPoints::LinkAlong(Direction d, std::span<const Key> keys, StopPoll& pol
     const Key wanted = keys[p] + step;
     while (keys[at] < wanted) ++at;
     if (keys[at] != wanted) continue;
-    masks_[p] = static_cast<NeighborMask>(masks_[p] | d.mask());
-    masks_[at] = static_cast<NeighborMask>(masks_[at] | d.Opposite().mask());
+    masks_[p] = With(masks_[p], d);
+    masks_[at] = With(masks_[at], d.Opposite());
     neighbors_[p][static_cast<size_t>(d.bit())] = at;
     neighbors_[at][static_cast<size_t>(d.Opposite().bit())] = p;
   }

@@ -60,20 +60,12 @@ class ThinPoints {
   std::vector<std::array<PointIndex, kNeighborCount>> neighbors_;  // by direction
 };
 
-// Calls visit(Direction) for the directions in `mask`, in order.
-template <typename Visit>
-void ForEachDirection(NeighborMask mask, Visit visit) {
-  for (unsigned rest = mask; rest != 0; rest &= rest - 1) {
-    visit(Direction(std::countr_zero(rest)));
-  }
-}
-
 // Removes p from the masks of its neighbors and these from the mask of p. Shapes: one mask per
 // point.
 inline void TakeOut(PointIndex p, const ThinPoints& points, std::span<NeighborMask> masks) {
   ForEachDirection(masks[p], [&](Direction d) {
     NeighborMask& mask = masks[points.Neighbor(p, d)];
-    mask = static_cast<NeighborMask>(mask & ~d.Opposite().mask());
+    mask = Without(mask, d.Opposite());
   });
   masks[p] = 0;
 }

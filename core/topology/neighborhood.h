@@ -46,9 +46,9 @@ constexpr NeighborMask NeighborsAmongN14(Direction n) {
   return kSharedNeighbors[static_cast<size_t>(n.bit())];
 }
 
-// The connected component, within `mask`, of its lowest neighbor; 0 for an empty mask.
-constexpr NeighborMask FirstComponentIn(NeighborMask mask) {
-  unsigned component = mask & (~mask + 1u);
+// The connected component of the neighbors in `start` within `mask`.
+constexpr NeighborMask ComponentAround(NeighborMask start, NeighborMask mask) {
+  unsigned component = start;
   for (unsigned fresh = component; fresh != 0;) {
     unsigned reached = 0;
     for (; fresh != 0; fresh &= fresh - 1) {
@@ -58,6 +58,11 @@ constexpr NeighborMask FirstComponentIn(NeighborMask mask) {
     component |= fresh;
   }
   return static_cast<NeighborMask>(component);
+}
+
+// The one, within `mask`, of its lowest neighbor; 0 for an empty mask.
+constexpr NeighborMask FirstComponentIn(NeighborMask mask) {
+  return ComponentAround(static_cast<NeighborMask>(mask & (~mask + 1u)), mask);
 }
 
 // Connected components of the neighbors in `mask`, by adjacency within N14: C(mask) of section 2.

@@ -110,15 +110,13 @@ class Extractor {
 
 // The middle of every step from a border point to the background.
 void AddVertices(const BorderPoint& at, std::vector<SurfaceVertex>& vertices) {
-  for (int bit = 0; bit < kNeighborCount; ++bit) {
-    const Direction d(bit);
-    if ((at.background & d.mask()) == 0) continue;
+  ForEachDirection(at.background, [&](Direction d) {
     const auto middle = [](int32_t p, int32_t step) {
       return static_cast<float>(p) + static_cast<float>(step) / 2;
     };
     vertices.push_back({middle(at.point.x, d.offset().x), middle(at.point.y, d.offset().y),
                         middle(at.point.z, d.offset().z)});
-  }
+  });
 }
 
 }  // namespace
