@@ -17,12 +17,6 @@ HWY_BEFORE_NAMESPACE();
 namespace bccskel {
 namespace HWY_NAMESPACE {
 
-HWY_INLINE Plane Repeat(uint64_t word) {
-  Plane plane;
-  for (size_t n = 0; n < kVectors; ++n) plane.v[n] = hn::Set(BrickTag(), word);
-  return plane;
-}
-
 HWY_INLINE bool HasOnePoint(const Plane& points) {
   const BrickTag tag;
   const BrickLane one = hn::Set(tag, 1);
@@ -40,7 +34,7 @@ HWY_INLINE bool HasOnePoint(const Plane& points) {
 // connected to it. For the signs of its surface normal, the part of a smooth object in a brick
 // passes the test.
 HWY_INLINE bool IsPlainlyConnected(const Plane& points) {
-  const Plane beyond = Repeat(0);
+  const Plane beyond = None();
   const Plane x[2] = {StepX<Step::kDown>(points, beyond), StepX<Step::kUp>(points, beyond)};
   const Plane y[2] = {StepY<Step::kDown>(points, beyond), StepY<Step::kUp>(points, beyond)};
   const Plane z[2] = {StepZ<Step::kDown>(points, beyond), StepZ<Step::kUp>(points, beyond)};
@@ -64,7 +58,7 @@ void TestConnectivityTarget(std::span<const BrickBits> bricks, Phase phase,
 }
 
 void FloodTarget(BrickBits& seed, const BrickBits& open) {
-  const Plane among = LoadPlane(open), beyond = Repeat(0);
+  const Plane among = LoadPlane(open), beyond = None();
   Plane reached = LoadPlane(seed);
   for (;;) {
     const Plane x = Or(StepX<Step::kDown>(reached, beyond), StepX<Step::kUp>(reached, beyond));

@@ -48,9 +48,7 @@ class ComponentLinks {
   int64_t LinkFragmentsToGap(BrickIndex n, int position, GapPlaces& places);
   size_t GapAt(BrickIndex n, int position, GapPlaces& places) const;
   int64_t Unite(size_t a, size_t b) { return sets_.Unite(a, b) ? 1 : 0; }
-  Sublattice SublatticeAt(BrickIndex n) const {
-    return static_cast<Sublattice>(object_.keys()[n].value() & 1);
-  }
+  Sublattice SublatticeAt(BrickIndex n) const { return object_.keys()[n].sublattice(); }
   BrickIndex NeighborAt(BrickIndex n, int position) const {
     return neighbors_[n][static_cast<size_t>(position)];
   }

@@ -106,7 +106,7 @@ int64_t SumBricksTarget(const Volume& object, exec::Share share) {
   Counts sum = hn::Zero(BrickTag());
   for (size_t n = share.begin; n < share.end; ++n) {
     const Plane own = LoadPlane(bricks[n]);
-    sum = (object.keys()[n].value() & 1) == 0
+    sum = object.keys()[n].sublattice() == Sublattice::kEven
               ? AddBrick<Sublattice::kEven>(bricks, neighbors[n], own, sum)
               : AddBrick<Sublattice::kOdd>(bricks, neighbors[n], own, sum);
   }

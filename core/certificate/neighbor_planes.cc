@@ -14,24 +14,12 @@ HWY_BEFORE_NAMESPACE();
 namespace bccskel {
 namespace HWY_NAMESPACE {
 
-HWY_INLINE Plane EmptyPlane() {
-  Plane plane;
-  for (size_t n = 0; n < kVectors; ++n) plane.v[n] = hn::Zero(BrickTag());
-  return plane;
-}
-
-template <Sublattice kSublattice>
-void FindPlanes(const BrickSurroundings& bricks, NeighborPlanes& planes) {
-  constexpr BrickNeighborhood kSideBySide = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13};
-  Plane all[kNeighborCount];
-  AllPlanes<kSublattice>(bricks.around.data(), kSideBySide, LoadPlane(bricks.own), all);
-  for (size_t d = 0; d < kNeighborCount; ++d) StorePlane(all[d], planes[d]);
-}
-
 void FindNeighborPlanesTarget(Sublattice sublattice, const BrickSurroundings& bricks,
                               NeighborPlanes& planes) {
-  sublattice == Sublattice::kEven ? FindPlanes<Sublattice::kEven>(bricks, planes)
-                                  : FindPlanes<Sublattice::kOdd>(bricks, planes);
+  constexpr BrickNeighborhood kSideBySide = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13};
+  Plane all[kNeighborCount];
+  AllPlanes(sublattice, bricks.around.data(), kSideBySide, LoadPlane(bricks.own), all);
+  for (size_t d = 0; d < kNeighborCount; ++d) StorePlane(all[d], planes[d]);
 }
 
 template <int kAxis, Step kStep>
@@ -50,8 +38,8 @@ HWY_INLINE Plane CellsThatSee(const Plane& brick) {
     return brick;
   } else {
     const Plane seen = CellsThatSee<kAway, kStep, kAxis + 1>(brick);
-    if constexpr ((kAway >> kAxis & 1) != 0) return StepAlong<kAxis, kStep>(EmptyPlane(), seen);
-    return Or(seen, StepAlong<kAxis, kStep>(seen, EmptyPlane()));
+    if constexpr ((kAway >> kAxis & 1) != 0) return StepAlong<kAxis, kStep>(None(), seen);
+    return Or(seen, StepAlong<kAxis, kStep>(seen, None()));
   }
 }
 
@@ -59,7 +47,7 @@ template <Sublattice kSublattice>
 PositionMask FindTouched(std::span<const BrickBits> bricks, BrickIndex n,
                          const BrickNeighborhood& neighbors) {
   constexpr Step kStep = kSublattice == Sublattice::kEven ? Step::kDown : Step::kUp;
-  const Plane own = LoadPlane(bricks[n]), nothing = EmptyPlane();
+  const Plane own = LoadPlane(bricks[n]), nothing = None();
   PositionMask touched = 0;
   const auto add = [&](int position, const Plane& seeing)
                        HWY_ATTR { touched |= (IsEmpty(And(own, seeing)) ? 0u : 1u) << position; };
@@ -108,7 +96,7 @@ NeighborPlanes NeighborPlanesOf(const Volume& object, BrickIndex brick) {
   BrickSurroundings surroundings = {bricks[brick], {}};
   const BrickNeighborhood& neighbors = object.neighbors()[brick];
   for (size_t n = 0; n < neighbors.size(); ++n) surroundings.around[n] = bricks[neighbors[n]];
-  return FindNeighborPlanes(object.keys()[brick].coordinates().sublattice, surroundings);
+  return FindNeighborPlanes(object.keys()[brick].sublattice(), surroundings);
 }
 PositionMask FindTouchedBricks(Sublattice sublattice, std::span<const BrickBits> bricks,
                                BrickIndex n, const BrickNeighborhood& neighbors) {

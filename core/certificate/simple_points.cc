@@ -59,11 +59,7 @@ int64_t CountInBricksTarget(const Volume& object, SimplePoints which, const Volu
   for (size_t n = share.begin; n < share.end; ++n) {
     const Plane own = LoadPlane(bricks[n]);
     Plane planes[kNeighborCount];
-    if ((object.keys()[n].value() & 1) == 0) {
-      AllPlanes<Sublattice::kEven>(bricks, neighbors[n], own, planes);
-    } else {
-      AllPlanes<Sublattice::kOdd>(bricks, neighbors[n], own, planes);
-    }
+    AllPlanes(object.keys()[n].sublattice(), bricks, neighbors[n], own, planes);
     const Plane candidates = PossiblySimple(which, own, planes);
     if (IsEmpty(candidates)) continue;
     const std::optional<BrickIndex> at = spared.Find(object.keys()[n]);

@@ -137,7 +137,7 @@ class EuclideanScan {
             IsUnknownBeside(object_, stack.back(), onward)};
   }
 
-  Sublattice SublatticeOf(BrickIndex n) const { return object_.keys()[n].coordinates().sublattice; }
+  Sublattice SublatticeOf(BrickIndex n) const { return object_.keys()[n].sublattice(); }
 
   // The layers of a stack that write squares of wanted bricks: of the stacks below and above, only
   // the layer of the other sublattice that touches them.

@@ -70,11 +70,7 @@ PointChanges DenoiseBricksTarget(const RoomyObject& object, exec::Share share,
   for (size_t n = share.begin; n < share.end; ++n) {
     const Plane own = LoadPlane(object.bricks[n]);
     Plane planes[kNeighborCount];
-    if ((object.keys[n].value() & 1) == 0) {
-      AllPlanes<Sublattice::kEven>(object.bricks.data(), object.neighbors[n], own, planes);
-    } else {
-      AllPlanes<Sublattice::kOdd>(object.bricks.data(), object.neighbors[n], own, planes);
-    }
+    AllPlanes(object.keys[n].sublattice(), object.bricks.data(), object.neighbors[n], own, planes);
     const Plane now = AtLeastEight(own, planes);
     changes.added += static_cast<int64_t>(CountBits(AndNot(own, now)));
     changes.removed += static_cast<int64_t>(CountBits(AndNot(now, own)));

@@ -34,11 +34,6 @@ constexpr Ring RingOfCorner(int v) {
 HWY_INLINE Plane Xor(const Plane& a, const Plane& b, const Plane& c) { return Xor(Xor(a, b), c); }
 HWY_INLINE Plane And(const Plane& a, const Plane& b, const Plane& c) { return And(And(a, b), c); }
 HWY_INLINE Plane Or(const Plane& a, const Plane& b, const Plane& c) { return Or(Or(a, b), c); }
-HWY_INLINE Plane None() {
-  Plane none;
-  for (size_t n = 0; n < kVectors; ++n) none.v[n] = hn::Zero(BrickTag());
-  return none;
-}
 HWY_INLINE Plane Not(const Plane& a) {
   Plane out;
   for (size_t n = 0; n < kVectors; ++n) out.v[n] = hn::Not(a.v[n]);

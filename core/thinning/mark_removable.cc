@@ -85,11 +85,10 @@ HWY_INLINE Plane Thin(const ObjectView& view, BrickIndex brick) {
                    And(own, LoadPlane(view.candidates[brick])));
 }
 
-template <Sublattice kSublattice>
-HWY_INLINE Plane EndPoints(const ObjectView& view, BrickIndex brick) {
+HWY_INLINE Plane EndPoints(const ObjectView& view, Sublattice sublattice, BrickIndex brick) {
   const Plane own = LoadPlane(view.object[brick]);
   Plane planes[14];
-  AllPlanes<kSublattice>(view.object, view.neighbors[brick], own, planes);
+  AllPlanes(sublattice, view.object, view.neighbors[brick], own, planes);
   Plane some = planes[0];
   Plane several = And(planes[0], planes[1]);
   some = Or(some, planes[1]);
@@ -100,11 +99,10 @@ HWY_INLINE Plane EndPoints(const ObjectView& view, BrickIndex brick) {
   return AndNot(several, And(some, And(own, LoadPlane(view.candidates[brick]))));
 }
 
-template <Sublattice kSublattice>
-HWY_INLINE Plane PossiblySimple(const ObjectView& view, BrickIndex brick) {
+HWY_INLINE Plane PossiblySimple(const ObjectView& view, Sublattice sublattice, BrickIndex brick) {
   const Plane own = LoadPlane(view.object[brick]);
   Plane p[14];
-  AllPlanes<kSublattice>(view.object, view.neighbors[brick], own, p);
+  AllPlanes(sublattice, view.object, view.neighbors[brick], own, p);
   // A D8 neighbor is adjacent to the D8 neighbors that differ in one sign and to the D6 neighbors
   // on its three sides; D6 neighbors are not adjacent to each other.
   Plane adjacent = And(p[0], Or(p[1], Or(p[2], p[4])));
@@ -154,18 +152,14 @@ void MarkEndPointsTarget(const ObjectView& view, Sublattice sublattice,
                          std::span<const BrickIndex> bricks, std::vector<MarkedBrick>& ends) {
   for (const BrickIndex brick : bricks) {
     if (IsEmpty(Thin(view, brick))) continue;
-    AddIfAny(sublattice == Sublattice::kEven ? EndPoints<Sublattice::kEven>(view, brick)
-                                             : EndPoints<Sublattice::kOdd>(view, brick),
-             brick, ends);
+    AddIfAny(EndPoints(view, sublattice, brick), brick, ends);
   }
 }
 size_t MarkPossiblySimpleTarget(const ObjectView& view, Sublattice sublattice,
                                 std::span<const BrickIndex> bricks, MarkedBrick* marked) {
   size_t count = 0;
   for (const BrickIndex brick : bricks) {
-    Append(sublattice == Sublattice::kEven ? PossiblySimple<Sublattice::kEven>(view, brick)
-                                           : PossiblySimple<Sublattice::kOdd>(view, brick),
-           brick, marked, count);
+    Append(PossiblySimple(view, sublattice, brick), brick, marked, count);
   }
   return count;
 }

@@ -23,12 +23,6 @@ HWY_INLINE BrickIndex Ahead(std::span<const BrickIndex> bricks, size_t at) {
   return bricks[std::min(at + kAhead, bricks.size() - 1)];
 }
 
-HWY_INLINE Plane AllPoints() {
-  Plane all;
-  for (BrickLane& lane : all.v) lane = hn::Set(BrickTag(), ~uint64_t{0});
-  return all;
-}
-
 // The points whose bit in a plane equals the lowest bit of `number`.
 HWY_INLINE Plane WithBit(const Plane& points, const BrickBits& plane, int32_t number) {
   const Plane set = LoadPlane(plane);
@@ -43,7 +37,7 @@ void CutShellsTarget(std::span<const ShellPlanes> planes, int32_t first,
     const ShellPlanes& own = planes[bricks[at]];
     const Plane one = LoadPlane(own[0]), two = LoadPlane(own[1]);
     // The points of these shells, by the bits that the shells share.
-    Plane group = WithBit(AllPoints(), own[2], first >> 2);
+    Plane group = WithBit(Repeat(~uint64_t{0}), own[2], first >> 2);
     for (int b = 3; b < kShellPlanes; ++b) {
       group = WithBit(group, own[static_cast<size_t>(b)], first >> b);
     }

@@ -24,9 +24,7 @@ struct ThinningState {
   ThinningState(const Volume& volume, std::span<const LatticePoint> keep);
 
   size_t brick_count() const { return keys.size(); }
-  Sublattice SublatticeOf(BrickIndex brick) const {
-    return static_cast<Sublattice>(keys[brick].value() & 1);
-  }
+  Sublattice SublatticeOf(BrickIndex brick) const { return keys[brick].sublattice(); }
   ObjectView View() const {
     constexpr size_t kNearBricks = 8192;  // 200 bytes each; only bricks at the surface are in use
     return {object.data(), candidates.data(), neighbors.data(), brick_count() > kNearBricks};

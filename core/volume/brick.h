@@ -88,9 +88,9 @@ class BrickKey {
                static_cast<uint64_t>(c.sublattice)) {}
 
   constexpr uint64_t value() const { return value_; }
+  constexpr Sublattice sublattice() const { return static_cast<Sublattice>(value_ & 1); }
   constexpr BrickCoordinates coordinates() const {
-    return {Unfield(value_ >> 1), Unfield(value_ >> 22), Unfield(value_ >> 43),
-            static_cast<Sublattice>(value_ & 1)};
+    return {Unfield(value_ >> 1), Unfield(value_ >> 22), Unfield(value_ >> 43), sublattice()};
   }
   friend constexpr auto operator<=>(const BrickKey&, const BrickKey&) = default;
 

@@ -37,7 +37,7 @@ void LinkPairs(std::span<const BrickKey> keys, Seekers seekers, int position, in
   const uint64_t step = KeyStep(Sublattice::kEven, position);
   size_t at = 0;
   for (size_t n = 0; n < keys.size(); ++n) {
-    if (seekers == Seekers::kEven && (keys[n].value() & 1) != 0) continue;
+    if (seekers == Seekers::kEven && keys[n].sublattice() != Sublattice::kEven) continue;
     const uint64_t wanted = keys[n].value() + step;
     while (at < keys.size() && keys[at].value() < wanted) ++at;
     if (at == keys.size()) return;

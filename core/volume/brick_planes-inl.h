@@ -52,6 +52,14 @@ HWY_INLINE void StorePlane(const Plane& plane, BrickBits& brick) {
   }
 }
 
+// Every word is `word`.
+HWY_INLINE Plane Repeat(uint64_t word) {
+  Plane plane;
+  for (size_t n = 0; n < kVectors; ++n) plane.v[n] = hn::Set(BrickTag(), word);
+  return plane;
+}
+HWY_INLINE Plane None() { return Repeat(0); }
+
 #define BCCSKEL_PLANE_OPERATOR(name, expression)          \
   HWY_INLINE Plane name(const Plane& a, const Plane& b) { \
     Plane out;                                            \
@@ -274,6 +282,15 @@ HWY_INLINE void AllPlanes(const BrickBits* bricks, const BrickNeighborhood& neig
   planes[11] = read.template Axial<1, Step::kDown>(own);
   planes[12] = read.template Axial<2, Step::kUp>(own);
   planes[13] = read.template Axial<2, Step::kDown>(own);
+}
+HWY_INLINE void AllPlanes(Sublattice sublattice, const BrickBits* bricks,
+                          const BrickNeighborhood& neighbors, const Plane& own,
+                          Plane (&planes)[14]) {
+  if (sublattice == Sublattice::kEven) {
+    AllPlanes<Sublattice::kEven>(bricks, neighbors, own, planes);
+  } else {
+    AllPlanes<Sublattice::kOdd>(bricks, neighbors, own, planes);
+  }
 }
 
 }  // namespace HWY_NAMESPACE

@@ -59,7 +59,7 @@ TEST_P(NeighborPlanesOn, TouchedBricksAreThoseThatHoldNeighbors) {
   for (double density : {0.002, 0.01, 0.05, 0.3}) {
     const Volume object = VolumeOfPoints(test::RandomCloud(12, {70, 18, 33}, density));
     for (BrickIndex n = 0; n < object.brick_count(); ++n) {
-      const Sublattice sublattice = object.keys()[n].coordinates().sublattice;
+      const Sublattice sublattice = object.keys()[n].sublattice();
       ASSERT_EQ(FindTouchedBricks(sublattice, object.padded_bricks(), n, object.neighbors()[n]),
                 ReferenceTouchedBricks(object, n))
           << "brick " << n << " density " << density;
