@@ -128,8 +128,7 @@ class Peeling {
       isthmuses_ = isthmuses();
       return absl::OkStatus();
     }
-    const bool alternating = options_.method == ThinningMethod::kDirectionalAlternating;
-    DirectionRule rule(state, alternating ? DirectionOrder::kAlternating : DirectionOrder::kSame);
+    DirectionRule rule(state, options_.method);
     const auto no_isthmuses = [] { return std::vector<IsthmusBirth>(); };
     return Sweep(bricks, shells.shells, checkpoints, done, no_isthmuses, rule, state);
   }

@@ -3,7 +3,7 @@
 namespace bccskel {
 
 DiagonalDirection DirectionRule::DirectionOf(const PassStep& at) const {
-  const bool reversed = order_ == DirectionOrder::kAlternating && at.cycle % 2 == 1;
+  const bool reversed = alternates_ && at.cycle % 2 == 1;
   return DiagonalDirection(reversed ? 7 - at.pass : at.pass);
 }
 

@@ -4,14 +4,10 @@
 #include <vector>
 
 #include "core/thinning/pass_rule.h"
+#include "core/thinning/thinning.h"
 #include "core/thinning/thinning_state.h"
 
 namespace bccskel {
-
-enum class DirectionOrder : uint8_t {
-  kSame,         // 0 to 7 in every cycle
-  kAlternating,  // 7 to 0 in every second cycle
-};
 
 // Does:  eight passes per cycle, one along each direction of D8 (Fig. 9).
 // Paper: Conditions 1 to 4. The text leaves the order of the directions open; in a fixed order, the
@@ -19,8 +15,10 @@ enum class DirectionOrder : uint8_t {
 // Why it is right: see mark_removable.h; the passes may come in any order.
 class DirectionRule : public PassRule {
  public:
-  // `state` must outlive the rule.
-  DirectionRule(const ThinningState& state, DirectionOrder order) : state_(state), order_(order) {}
+  // `state` must outlive the rule. With kDirectionalAlternating directions come from 7 to 0 in
+  // every second cycle, with kDirectional always from 0 to 7.
+  DirectionRule(const ThinningState& state, ThinningMethod method)
+      : state_(state), alternates_(method == ThinningMethod::kDirectionalAlternating) {}
 
   int passes_per_cycle() const override { return 8; }
   int steps() const override { return 1; }
@@ -34,7 +32,7 @@ class DirectionRule : public PassRule {
   DiagonalDirection DirectionOf(const PassStep& at) const;
 
   const ThinningState& state_;
-  const DirectionOrder order_;
+  const bool alternates_;
 };
 
 }  // namespace bccskel

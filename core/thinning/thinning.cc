@@ -80,8 +80,7 @@ class Thinning {
   }
 
   absl::Status SweepByDirections(const Shells& shells) {
-    const bool alternating = options_.method == ThinningMethod::kDirectionalAlternating;
-    DirectionRule rule(state_, alternating ? DirectionOrder::kAlternating : DirectionOrder::kSame);
+    DirectionRule rule(state_, options_.method);
     return Sweep(shells, rule);
   }
 
