@@ -1,8 +1,9 @@
 #include "core/thinning/sweep_worker.h"
 
 #include <algorithm>
+#include <bit>
 
-#include "core/thinning/stubble.h"
+#include "core/topology/neighborhood.h"
 
 namespace bccskel {
 namespace {
@@ -52,6 +53,39 @@ void Begin(exec::Share bricks, SweepPart& part) {
   }
   part.ends.clear();
   part.marks.Clear();
+}
+
+// The number of end points among the neighbors of a point that come before direction `before`.
+int EndPointsBefore(const ThinningState& state, const NeighborAddress& q, NeighborMask neighbors,
+                    Direction before) {
+  int count = 0;
+  ForEachDirection(static_cast<NeighborMask>(neighbors & (before.mask() - 1)), [&](Direction d) {
+    const NeighborAddress e = NeighborAt(state, q.brick, q.bit, d);
+    if (IsEndPoint(state.NeighborsOf(e.brick, e.bit))) ++count;
+  });
+  return count;
+}
+
+enum class EndKind : uint8_t {
+  // No pass will remove it: rules remove end points only as stubble, and the neighbor has at most
+  // two neighbors and gets no more.
+  kStays,
+  // Condition 6. The neighbor of a stubble point is never removed in the same pass: it is neither
+  // an end point nor simple. So the topology stays.
+  kStubble,
+  kKept,
+};
+
+// Needs: the point is an end point.
+EndKind Judge(const ThinningState& state, BrickIndex brick, int bit, StubblePolicy policy) {
+  const Direction to_neighbor(std::countr_zero(state.NeighborsOf(brick, bit)));
+  const NeighborAddress q = NeighborAt(state, brick, bit, to_neighbor);
+  const NeighborMask around_q = state.NeighborsOf(q.brick, q.bit);
+  const int neighbors = NeighborsIn(around_q);
+  if (neighbors <= 2) return EndKind::kStays;
+  if (policy == StubblePolicy::kLiteral) return EndKind::kStubble;
+  const int before = EndPointsBefore(state, q, around_q, to_neighbor.Opposite());
+  return before < neighbors - 2 ? EndKind::kStubble : EndKind::kKept;
 }
 
 void PutToSleep(const ThinningState& state, const BrickShares& shares, BrickIndex n,
@@ -162,11 +196,16 @@ void MarkStubble(StubblePolicy policy, ThinningState& state, std::span<DirtyMask
     MarkEndPoints(view, sublattice, part.end_points_to_do.Of(sublattice), part.ends);
   }
   for (const MarkedBrick& m : part.ends) {
-    const JudgedEnds judged = JudgeEnds(state, m, policy);
-    if (judged.stay != m.marks) dirty[m.brick] |= kEndPointsDirty;
-    state.candidates[m.brick] &= ~judged.stay;
-    if (judged.stubble.Empty()) continue;
-    *part.marks.Room(1) = {judged.stubble, m.brick};
+    BrickBits stubble, stay;
+    m.marks.ForEachSetBit([&](int bit) {
+      const EndKind kind = Judge(state, m.brick, bit, policy);
+      if (kind == EndKind::kStubble) stubble.Set(bit);
+      if (kind == EndKind::kStays) stay.Set(bit);
+    });
+    if (stay != m.marks) dirty[m.brick] |= kEndPointsDirty;
+    state.candidates[m.brick] &= ~stay;
+    if (stubble.Empty()) continue;
+    *part.marks.Room(1) = {stubble, m.brick};
     part.marks.Add(1);
   }
 }

@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "absl/strings/str_format.h"
 #include "core/exec/stage_clock.h"
 #include "core/exec/status_macros.h"
 #include "core/thinning/cleanup.h"
 #include "core/thinning/direction_rule.h"
-#include "core/thinning/peeled_points.h"
 #include "core/thinning/shell_sweep.h"
 #include "core/thinning/symmetric_rule.h"
 
@@ -43,6 +45,32 @@ StubblePolicy StubbleOf(const ThinningOptions& options) {
 
 namespace {
 
+// Finds the points of an object that were removed since the last call.
+class PeeledPoints {
+ public:
+  // `object` must outlive this.
+  explicit PeeledPoints(const Volume& object)
+      : object_(object), before_(object.bricks().begin(), object.bricks().end()) {}
+
+  // Shapes: `now` in the brick order of the object, padded or not; a subset of the previous one.
+  Volume Take(std::span<const BrickBits> now) {
+    std::vector<BrickKey> keys;
+    std::vector<BrickBits> gone;
+    for (size_t n = 0; n < before_.size(); ++n) {
+      if (before_[n] == now[n]) continue;
+      keys.push_back(object_.keys()[n]);
+      gone.push_back(before_[n] & ~now[n]);
+      before_[n] = now[n];
+    }
+    return Volume::FromSortedBricks(object_.extent(), object_.placement(), std::move(keys),
+                                    std::move(gone));
+  }
+
+ private:
+  const Volume& object_;
+  std::vector<BrickBits> before_;
+};
+
 // One run, stage by stage.
 class Thinning {
  public:
@@ -61,7 +89,8 @@ class Thinning {
     if (options_.method == ThinningMethod::kSymmetric) {
       BCCSKEL_RETURN_IF_ERROR(SweepSymmetrically(shells, depths));
     } else {
-      BCCSKEL_RETURN_IF_ERROR(SweepByDirections(shells));
+      DirectionRule rule(state_, options_.method);
+      BCCSKEL_RETURN_IF_ERROR(Sweep(shells, rule));
       BCCSKEL_RETURN_IF_ERROR(CleanUp(shells));
     }
     result_.thin = std::move(state_).ToVolume(object_);
@@ -77,11 +106,6 @@ class Thinning {
     }
     result_.times.cleanup = clock_.Lap();
     return absl::OkStatus();
-  }
-
-  absl::Status SweepByDirections(const Shells& shells) {
-    DirectionRule rule(state_, options_.method);
-    return Sweep(shells, rule);
   }
 
   absl::Status SweepSymmetrically(const Shells& shells, const BrickDepths& depths) {
