@@ -59,8 +59,8 @@ int64_t EulerOfRow(const RowTube& tube, int slice, int row) {
 
 MaskTopology::MaskTopology(const MaskGrid& grid, MaskAdjacency adjacency)
     : adjacency_(adjacency),
-      object_(MaskPhase::kObject, ObjectContact(adjacency), grid.ny),
-      background_(MaskPhase::kBackground, BackgroundContact(adjacency), grid.ny) {}
+      object_(Phase::kObject, ObjectContact(adjacency), grid.ny),
+      background_(Phase::kBackground, BackgroundContact(adjacency), grid.ny) {}
 
 void MaskTopology::AddSlice(int32_t z, const SliceRows& rows) {
   if (z > last_z_ + 1) EndSlice();  // an empty one

@@ -2,7 +2,6 @@
 
 #include <limits>
 #include <utility>
-#include <vector>
 
 namespace bccskel {
 namespace {
@@ -12,6 +11,25 @@ constexpr uint32_t kOutside = 0;
 constexpr int32_t kFar = std::numeric_limits<int32_t>::max() / 2;
 
 }  // namespace
+
+void PhaseRuns::Clear() {
+  for (int32_t y : rows_) row_at_[static_cast<size_t>(y + 1)] = kAbsent;
+  rows_.clear();
+  begins_.clear();
+  runs_.clear();
+}
+
+void PhaseRuns::AddRow(int32_t y) {
+  row_at_[static_cast<size_t>(y + 1)] = static_cast<uint32_t>(rows_.size());
+  rows_.push_back(y);
+  begins_.push_back(runs_.size());
+}
+
+std::span<PhaseRun> PhaseRuns::Row(int32_t y) {
+  const size_t n = row_at_[static_cast<size_t>(y + 1)];
+  const size_t end = n + 1 < begins_.size() ? begins_[n + 1] : runs_.size();
+  return std::span(runs_).subspan(begins_[n], end - begins_[n]);
+}
 
 void RunComponents::AddRow(int32_t y) {
   runs_.AddRow(y);
@@ -24,7 +42,7 @@ void RunComponents::AddNewSet(int32_t begin, int32_t end) {
 }
 
 void RunComponents::AddObjectRun(int32_t begin, int32_t end) {
-  if (phase_ == MaskPhase::kObject) {
+  if (phase_ == Phase::kObject) {
     AddNewSet(begin, end);
   } else if (last_end_ == -kFar) {
     runs_.AddRun({-kFar, begin, kOutside});
@@ -35,12 +53,12 @@ void RunComponents::AddObjectRun(int32_t begin, int32_t end) {
 }
 
 void RunComponents::EndRow() {
-  if (phase_ == MaskPhase::kBackground) runs_.AddRun({last_end_, kFar, kOutside});
+  if (phase_ == Phase::kBackground) runs_.AddRun({last_end_, kFar, kOutside});
 }
 
 void RunComponents::EndSlice() {
   for (int32_t y : runs_.rows()) LinkRow(y);
-  if (phase_ == MaskPhase::kBackground) {
+  if (phase_ == Phase::kBackground) {
     for (int32_t y : runs_.rows()) LinkToOutside(y, runs_, before_);
     for (int32_t y : before_.rows()) LinkToOutside(y, before_, runs_);
   }

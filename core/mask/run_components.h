@@ -3,11 +3,47 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
+#include "core/certificate/brick_components.h"
 #include "core/exec/disjoint_sets.h"
-#include "core/mask/phase_runs.h"
 
 namespace bccskel {
+
+// Whether voxels that share a corner touch, or only those that share a face.
+enum class Contact : uint8_t { kFace, kCorner };
+
+// Voxels [begin, end) of a row, all of one phase.
+struct PhaseRun {
+  int32_t begin = 0;
+  int32_t end = 0;
+  uint32_t set = 0;
+};
+
+// The runs of one phase in one slice, by row. Rows without object voxels are not stored: for the
+// object they are empty, for the background one run of the outside.
+class PhaseRuns {
+ public:
+  explicit PhaseRuns(int32_t ny) : row_at_(static_cast<size_t>(ny) + 2, kAbsent) {}
+
+  void Clear();
+  // Starts row y. Needs: y increases.
+  void AddRow(int32_t y);
+  void AddRun(PhaseRun run) { runs_.push_back(run); }
+
+  bool Has(int32_t y) const { return row_at_[static_cast<size_t>(y + 1)] != kAbsent; }
+  // Needs: -1 <= y <= ny and Has(y).
+  std::span<PhaseRun> Row(int32_t y);
+  std::span<const int32_t> rows() const { return rows_; }
+  std::span<PhaseRun> runs() { return runs_; }
+
+ private:
+  static constexpr uint32_t kAbsent = ~uint32_t{0};
+  std::vector<uint32_t> row_at_;  // y + 1 -> position in rows_
+  std::vector<int32_t> rows_;     // y
+  std::vector<size_t> begins_;
+  std::vector<PhaseRun> runs_;
+};
 
 // Counts the components of one phase of a mask, slice by slice: every run is a set of its own, runs
 // that touch are joined, and each successful join reduces the number of components by one. Runs of
@@ -15,7 +51,7 @@ namespace bccskel {
 // Memory: the runs of two slices; sets are renumbered after each.
 class RunComponents {
  public:
-  RunComponents(MaskPhase phase, Contact contact, int32_t ny)
+  RunComponents(Phase phase, Contact contact, int32_t ny)
       : phase_(phase), contact_(contact), before_(ny), runs_(ny) {}
 
   // Adds the next slice: rows in order of y, and the runs of each in order. Omitted rows have no
@@ -39,7 +75,7 @@ class RunComponents {
   // The largest difference in y to a touching row of the previous slice.
   int32_t reach() const { return contact_ == Contact::kCorner ? 1 : 0; }
 
-  const MaskPhase phase_;
+  const Phase phase_;
   const Contact contact_;
   PhaseRuns before_;  // the previous slice
   PhaseRuns runs_;    // this slice

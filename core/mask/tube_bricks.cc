@@ -14,7 +14,7 @@ using BrickWords = Words<kBrickZ, kBrickY>;
 
 // The phase to which the rule is applied; everything outside the mask is background.
 template <MaskAdjacency kAdjacency>
-uint64_t Phase(uint64_t voxels) {
+uint64_t InPhase(uint64_t voxels) {
   return kAdjacency == MaskAdjacency::k26 ? voxels : ~voxels;
 }
 
@@ -23,7 +23,8 @@ TubeWords WordsAt(const RowTube& tube, int32_t n) {
   TubeWords words;
   for (int s = 0; s < RowTube::kSlices; ++s) {
     for (int r = 0; r < RowTube::kRows; ++r) {
-      words[static_cast<size_t>(s)][static_cast<size_t>(r)] = Phase<kAdjacency>(tube.Row(s, r)[n]);
+      words[static_cast<size_t>(s)][static_cast<size_t>(r)] =
+          InPhase<kAdjacency>(tube.Row(s, r)[n]);
     }
   }
   return words;
@@ -112,7 +113,7 @@ BrickLine BricksOf(const BrickWords& words) {
   BrickLine bricks;
   for (size_t k = 0; k < words.size(); ++k) {
     const auto layers = LayersOf(words[k]);
-    for (size_t b = 0; b < bricks.size(); ++b) bricks[b].words[k] = Phase<kAdjacency>(layers[b]);
+    for (size_t b = 0; b < bricks.size(); ++b) bricks[b].words[k] = InPhase<kAdjacency>(layers[b]);
   }
   return bricks;
 }
