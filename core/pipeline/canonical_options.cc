@@ -1,6 +1,6 @@
 #include "core/pipeline/canonical_options.h"
 
-#include "core/pruning/pruning_defaults.h"
+#include "core/pruning/prune.h"
 #include "core/pruning/sheet_pruner.h"
 
 namespace bccskel {

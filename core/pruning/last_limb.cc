@@ -5,7 +5,7 @@
 
 #include "core/pruning/branch_walk.h"
 #include "core/pruning/largest_run.h"
-#include "core/pruning/pruning_defaults.h"
+#include "core/pruning/prune.h"
 
 namespace bccskel {
 namespace {
@@ -19,7 +19,7 @@ size_t LastLimb::BeginIn(const ThinSet& set, std::span<const LatticePoint> path,
   for (size_t n = path.size() - 1; n-- > first;) {
     const double radius = set.RadiusOf(path[n]);
     if (radius > most) {
-      if (SignificanceOf(set, path.subspan(n)) >= WithDefaults({}).threshold) return n + 1;
+      if (SignificanceOf(set, path.subspan(n)) >= kDefaultSignificance) return n + 1;
       most = kBead * radius;  // the limb may begin farther back, behind a thicker bead
     } else if (SticksOut(set, path[n], path.back())) {
       most = std::min(most, kBead * radius);

@@ -12,7 +12,6 @@
 #include "core/exec/stop_poll.h"
 #include "core/pruning/branch_pruner.h"
 #include "core/pruning/grow_body_ends.h"
-#include "core/pruning/pruning_defaults.h"
 #include "core/pruning/pruning_levels.h"
 #include "core/pruning/simple_points.h"
 #include "core/pruning/surface_noise.h"
@@ -22,6 +21,24 @@
 
 namespace bccskel {
 namespace {
+
+constexpr double kDefaultRelativeLength = 1;
+constexpr double kDefaultPersistence = 6;
+
+double DefaultOf(PruningRule rule) {
+  switch (rule) {
+    case PruningRule::kSignificance:
+      return kDefaultSignificance;
+    case PruningRule::kRelativeLength:
+      return kDefaultRelativeLength;
+    case PruningRule::kPersistence:
+      return kDefaultPersistence;
+    case PruningRule::kLength:  // must be given
+    case PruningRule::kNone:
+      return 0;
+  }
+  return 0;
+}
 
 // In the unit of the rule.
 double ThresholdOf(const PruningOptions& options, const Placement& placement) {
@@ -125,6 +142,13 @@ Significance SignificanceIn(const Volume& space, const ExactRadius& radius, cons
 }
 
 }  // namespace
+
+PruningOptions WithDefaults(PruningOptions options) {
+  if (options.threshold == 0 || options.rule == PruningRule::kNone) {
+    options.threshold = DefaultOf(options.rule);
+  }
+  return options;
+}
 
 absl::Status CheckPruningOptions(const PruningOptions& options) {
   if (!(options.threshold >= 0 && options.threshold <= kMaxPruningThreshold)) {

@@ -48,6 +48,10 @@ struct PruningOptions {
   friend bool operator==(const PruningOptions&, const PruningOptions&) = default;
 };
 
+// Returns the options with a threshold of 0 replaced by the rule's default; without a rule the
+// threshold becomes 0.
+PruningOptions WithDefaults(PruningOptions options);
+
 // Errors: INVALID_ARGUMENT, with the value and the limit.
 absl::Status CheckPruningOptions(const PruningOptions& options);
 

@@ -19,7 +19,7 @@
 #include "core/pruning/largest_run.h"
 #include "core/pruning/last_limb.h"
 #include "core/pruning/limb_anchor.h"
-#include "core/pruning/pruning_defaults.h"
+#include "core/pruning/prune.h"
 #include "core/pruning/ridge_end.h"
 #include "core/pruning/tip_steps.h"
 
@@ -106,7 +106,7 @@ class TipPlacer {
     root_ = points[0];
     if (points.size() >= 2) {
       const Run run = LargestRun(set_, path, noise_);
-      if (run.ratio >= WithDefaults({}).threshold) root_ = points[run.from];
+      if (run.ratio >= kDefaultSignificance) root_ = points[run.from];
     }
     root_radius_ = set_.RadiusOf(root_);
   }
