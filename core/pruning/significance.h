@@ -68,9 +68,6 @@ class Significance {
   // it sticks out of the ball at its junction, relative to that ball's radius and the width, as
   // above. -infinity if the branch is not the end of a body, the ball is too small, or the value is
   // at most `least` or 0.2. Needs: as Of().
-  // The value of a limb that leaves a trunk, by its width beside it.
-  double BesideTrunk(const ThinSet& set, const BranchPath& path, const Run& run);
-  bool LeadsBesideCut(const ThinSet& set, const FreeBranch& branch) const;
   double OfBodyEnd(const ThinSet& set, const FreeBranch& branch,
                    double least = -std::numeric_limits<double>::infinity());
   // Whether a ball of this radius at a junction is large enough, compared with the noise.
@@ -110,7 +107,12 @@ class Significance {
     double bound;     // upper bound of the value, with or without walls
   };
 
+  // Whether the branch ends beside the middle of a cut, to which another branch leads.
+  bool LeadsBesideCut(const ThinSet& set, const FreeBranch& branch) const;
   Verdict Look(const ThinSet& set, const FreeBranch& branch);
+  // The value of a limb that leaves a trunk, by its width beside the trunk; 0 if it does not stick
+  // out.
+  double BesideTrunk(const ThinSet& set, const BranchPath& path, const Run& run);
   // Replaces the best run by this one if its value is larger.
   void Consider(const ThinSet& set, const BranchPath& path, const Run& run, Verdict& best);
   // Null if the end has no cached result or its branch has changed.
