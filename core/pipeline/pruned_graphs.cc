@@ -94,14 +94,7 @@ class LevelPruner {
 
   void Remove(const FreeBranch& branch) {
     if (!branch.junction.has_value()) return;
-    for (LatticePoint p : branch.points) set_.Remove(p);
-    std::set<LatticePoint> around = {*branch.junction};
-    const auto add = [&](LatticePoint q) { around.insert(q); };
-    ForEachNeighbor(*branch.junction, set_.NeighborsOf(*branch.junction), add);
-    for (LatticePoint p : RemoveSimplePoints(set_, around, {})) {
-      ForEachNeighbor(p, set_.NeighborsAround(p), add);
-    }
-    for (LatticePoint p : around) {
+    for (LatticePoint p : RemoveBranch(set_, branch, {}).around) {
       if (IsEnd(p)) AddTurn(p);
     }
   }

@@ -1,6 +1,7 @@
 #include "core/pruning/branch_pruner.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 
 #include "core/exec/stop_poll.h"
@@ -14,8 +15,7 @@ constexpr uint64_t kStepsOfABranch = 128;  // in a StopPoll: for the work of jud
 
 }  // namespace
 
-uint64_t BranchPruner::Run(const OnRemoved& on_removed, TurnedTips* turned) {
-  uint64_t removed = 0;
+void BranchPruner::Run(const OnRemoved& on_removed, TurnedTips* turned) {
   JudgeAll();
   while (!turns_.empty() && !context_.ShouldStop()) {
     const auto [worth, end] = turns_.top();
@@ -29,10 +29,10 @@ uint64_t BranchPruner::Run(const OnRemoved& on_removed, TurnedTips* turned) {
       continue;
     }
     if (turned != nullptr) NoteTurned(branch, *turned);
-    for (LatticePoint p : Remove(branch)) on_removed(p, worth);
-    ++removed;
+    const RemovedBranch removed = RemoveBranch(set_, branch, keep_);
+    for (LatticePoint p : removed.points) on_removed(p, worth);
+    JudgeAround(removed.around);
   }
-  return removed;
 }
 
 void BranchPruner::NoteTurned(const FreeBranch& branch, TurnedTips& turned) const {
@@ -101,21 +101,6 @@ double BranchPruner::LengthTo(const FreeBranch& branch, LatticePoint junction) c
   return length;
 }
 
-// Returns the removed points: those of the branch and some at the junction.
-std::vector<LatticePoint> BranchPruner::Remove(const FreeBranch& branch) {
-  std::vector<LatticePoint> removed = branch.points;
-  for (LatticePoint p : branch.points) set_.Remove(p);
-  std::set<LatticePoint> around = {*branch.junction};
-  const auto add = [&](LatticePoint q) { around.insert(q); };
-  ForEachNeighbor(*branch.junction, set_.NeighborsOf(*branch.junction), add);
-  for (LatticePoint p : RemoveSimplePoints(set_, around, keep_)) {
-    removed.push_back(p);
-    ForEachNeighbor(p, set_.NeighborsAround(p), add);
-  }
-  JudgeAround(around);
-  return removed;
-}
-
 // Judges the branches with a free end that start near these places again, each once although it is
 // found from several points of its junction.
 void BranchPruner::JudgeAround(const std::set<LatticePoint>& places) {
@@ -146,6 +131,23 @@ void BranchPruner::FindEndsBeyond(LatticePoint p, const std::set<LatticePoint>& 
     }
     if (IsEndPoint(mask)) ends.insert(q);
   });
+}
+
+PruningLevels PruningLevelsOf(ThinSet set, Significance& significance, PruningRule rule,
+                              const PointSet& keep, const exec::Context& context) {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  PruningLevels levels;
+  StopPoll poll(context);
+  set.ForEachCurvePoint([&](LatticePoint p) {
+    if (!poll.Stopped()) levels.Set(p, kNever);
+  });
+  double level = 0;
+  const auto record = [&](LatticePoint p, double worth) {
+    level = std::max(level, worth);
+    if (double* found = levels.Find(p); found != nullptr) *found = level;
+  };
+  BranchPruner(set, significance, rule, kNever, keep, context).Run(record);
+  return levels;
 }
 
 }  // namespace bccskel

@@ -1,7 +1,6 @@
 #ifndef BCCSKEL_CORE_PRUNING_BRANCH_PRUNER_H_
 #define BCCSKEL_CORE_PRUNING_BRANCH_PRUNER_H_
 
-#include <cstdint>
 #include <functional>
 #include <optional>
 #include <queue>
@@ -11,6 +10,7 @@
 
 #include "core/exec/context.h"
 #include "core/pruning/branch_walk.h"
+#include "core/pruning/point_table.h"
 #include "core/pruning/prune.h"
 #include "core/pruning/significance.h"
 #include "core/pruning/thin_set.h"
@@ -44,10 +44,9 @@ class BranchPruner {
         keep_(keep),
         context_(context) {}
 
-  // Returns the number of branches removed. `turned`, if given, receives the tips that turn aside
-  // where branches are removed. Stops early if the context requests it.
-  uint64_t Run(
-      const OnRemoved& on_removed = [](LatticePoint, double) {}, TurnedTips* turned = nullptr);
+  // `turned`, if given, receives the tips that turn aside where branches are removed. Stops early
+  // if the context requests it.
+  void Run(const OnRemoved& on_removed, TurnedTips* turned = nullptr);
 
  private:
   bool IsEnd(LatticePoint p) const { return set_.Contains(p) && set_.IsEnd(p); }
@@ -64,8 +63,6 @@ class BranchPruner {
   double BallAt(LatticePoint junction) const;
   double LengthTo(const FreeBranch& branch, LatticePoint junction) const;
 
-  std::vector<LatticePoint> Remove(const FreeBranch& branch);
-
   using Turn = std::pair<double, LatticePoint>;
 
   ThinSet& set_;
@@ -76,6 +73,20 @@ class BranchPruner {
   const exec::Context& context_;
   std::priority_queue<Turn, std::vector<Turn>, std::greater<>> turns_;
 };
+
+// The level of each point of a branch: the threshold above which the point is removed; infinity if
+// it is never removed. Points at junctions have none.
+using PruningLevels = PointTable<double>;
+
+// Does:  answers every threshold of a rule in one run: pruning by a threshold leaves the points
+//        whose level is not below it. Branches are removed one by one, the smallest value first.
+//        The level of a branch is the largest value of all branches up to and including it, at
+//        least 0.
+// Why it is right: the rule removes the smallest value first, so pruning by a threshold is the
+//   first part of this run, until all remaining branches reach the threshold.
+// Errors: none; points that remain when the context requests a stop keep the level infinity.
+PruningLevels PruningLevelsOf(ThinSet set, Significance& significance, PruningRule rule,
+                              const PointSet& keep, const exec::Context& context);
 
 }  // namespace bccskel
 

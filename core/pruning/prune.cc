@@ -12,7 +12,6 @@
 #include "core/exec/stop_poll.h"
 #include "core/pruning/branch_pruner.h"
 #include "core/pruning/grow_body_ends.h"
-#include "core/pruning/pruning_levels.h"
 #include "core/pruning/simple_points.h"
 #include "core/pruning/surface_noise.h"
 #include "core/pruning/thin_set.h"

@@ -33,4 +33,17 @@ void RemoveSimplePoints(ThinSet& set, const PointSet& keep, StopPoll& poll) {
   RemoveSimplePoints(set, simple, keep, &poll);
 }
 
+RemovedBranch RemoveBranch(ThinSet& set, const FreeBranch& branch, const PointSet& keep) {
+  const LatticePoint junction = *branch.junction;
+  RemovedBranch removed = {branch.points, {junction}};
+  for (LatticePoint p : branch.points) set.Remove(p);
+  const auto add = [&](LatticePoint q) { removed.around.insert(q); };
+  ForEachNeighbor(junction, set.NeighborsOf(junction), add);
+  for (LatticePoint p : RemoveSimplePoints(set, removed.around, keep)) {
+    removed.points.push_back(p);
+    ForEachNeighbor(p, set.NeighborsAround(p), add);
+  }
+  return removed;
+}
+
 }  // namespace bccskel

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/exec/stop_poll.h"
+#include "core/pruning/branch_walk.h"
 #include "core/pruning/thin_set.h"
 
 namespace bccskel {
@@ -17,6 +18,15 @@ std::vector<LatticePoint> RemoveSimplePoints(ThinSet& set, const std::set<Lattic
 
 // The same for the whole set. Both leave some points if `poll` requests a stop.
 void RemoveSimplePoints(ThinSet& set, const PointSet& keep, StopPoll& poll);
+
+struct RemovedBranch {
+  std::vector<LatticePoint> points;  // those of the branch and some at the junction
+  std::set<LatticePoint> around;     // the junction, and what was beside it and the latter
+};
+
+// Removes a branch and the points at its junction that have become simple.
+// Needs: the branch has a junction.
+RemovedBranch RemoveBranch(ThinSet& set, const FreeBranch& branch, const PointSet& keep);
 
 }  // namespace bccskel
 

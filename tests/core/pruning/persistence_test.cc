@@ -8,7 +8,7 @@
 
 #include "core/import/shapes/shapes.h"
 #include "core/pipeline/skeletonize.h"
-#include "core/pruning/pruning_levels.h"
+#include "core/pruning/branch_pruner.h"
 #include "tests/core/pruning/raw_curves.h"
 #include "tests/core/pruning/simple_noise.h"
 

@@ -1,5 +1,3 @@
-#include "core/pruning/pruning_levels.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 
 #include "core/import/shapes/shapes.h"
 #include "core/pipeline/skeletonize.h"
+#include "core/pruning/branch_pruner.h"
 #include "tests/core/pruning/raw_curves.h"
 #include "tests/core/pruning/simple_noise.h"
 #include "tests/support/random_objects.h"

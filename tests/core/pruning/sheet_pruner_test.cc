@@ -10,7 +10,6 @@
 
 #include "core/certificate/certificate.h"
 #include "core/import/shapes/figures.h"
-#include "core/pruning/simple_points.h"
 #include "core/skeleton/trace_skeleton.h"
 #include "core/topology/simple_point_table.h"
 #include "tests/core/pruning/raw_curves.h"
