@@ -19,14 +19,26 @@ namespace bccskel {
 class SheetSet {
  public:
   // Contains all of `points`, which must outlive the set.
-  explicit SheetSet(const ThinPoints& points);
+  explicit SheetSet(const ThinPoints& points)
+      : points_(points), masks_(points.size()), left_(points.size(), 1) {
+    for (PointIndex p = 0; p < points.size(); ++p) masks_[p] = points.mask(p);
+  }
 
   bool Contains(PointIndex p) const { return left_[p] != 0; }
   // The remaining neighbors; 0 for removed points.
   NeighborMask mask(PointIndex p) const { return masks_[p]; }
-  void Remove(PointIndex p);
+  void Remove(PointIndex p) {
+    TakeOut(p, points_, masks_);
+    left_[p] = 0;
+  }
   // The remaining points, in lattice order.
-  std::vector<PointIndex> Points() const;
+  std::vector<PointIndex> Points() const {
+    std::vector<PointIndex> points;
+    for (PointIndex p = 0; p < left_.size(); ++p) {
+      if (Contains(p)) points.push_back(p);
+    }
+    return points;
+  }
 
   // Removes points of `from`, then their neighbors, and so on: every point that is simple at its
   // turn and for which `may_go(PointIndex)` is true. The order is by `key(PointIndex)`, smallest
