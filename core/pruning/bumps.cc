@@ -1,9 +1,10 @@
 #include "core/pruning/bumps.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
-#include "core/pruning/limb_anchor.h"
+#include "core/pruning/thin_set.h"
 
 namespace bccskel {
 namespace {
@@ -16,9 +17,8 @@ constexpr int kThinner = 3;   // in thin limbs: with so many fewer than the medi
 void Bumps::SetLimb(std::span<const LatticePoint> limb, bool has_point) {
   least_ = 0;
   if (has_point) return;
-  std::vector<float> counts;
-  counts.reserve(limb.size());
-  for (LatticePoint p : limb) counts.push_back(static_cast<float>(NeighborsOf(p)));
+  std::vector<int> counts;
+  for (LatticePoint p : limb) counts.push_back(NeighborsOf(p));
   least_ =
       std::clamp(static_cast<int>(MedianOf(std::move(counts))) - kThinner, kThinner, kMajority);
 }

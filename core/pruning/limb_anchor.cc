@@ -1,5 +1,6 @@
 #include "core/pruning/limb_anchor.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 

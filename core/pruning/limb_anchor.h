@@ -1,7 +1,6 @@
 #ifndef BCCSKEL_CORE_PRUNING_LIMB_ANCHOR_H_
 #define BCCSKEL_CORE_PRUNING_LIMB_ANCHOR_H_
 
-#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -65,13 +64,6 @@ WayOn StraightOn(const Coordinates& way, double radius);
 //         `step` as above.
 WayOn WayOnFrom(const ThinSet& set, double step, LatticePoint anchor,
                 std::span<const LatticePoint> path);
-
-// Needs: at least one value.
-inline double MedianOf(std::vector<float> values) {
-  const auto median = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, median);
-  return *median;
-}
 
 }  // namespace bccskel
 

@@ -1,7 +1,7 @@
 #ifndef BCCSKEL_CORE_PRUNING_THIN_SET_H_
 #define BCCSKEL_CORE_PRUNING_THIN_SET_H_
 
-#include <bit>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <unordered_set>
@@ -103,6 +103,14 @@ class ThinSet {
 template <typename Visit>
 void ForEachNeighbor(LatticePoint p, NeighborMask mask, Visit visit) {
   ForEachDirection(mask, [&](Direction d) { visit(p + d.offset()); });
+}
+
+// Needs: at least one value.
+template <typename Value>
+double MedianOf(std::vector<Value> values) {
+  const auto median = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, median);
+  return *median;
 }
 
 }  // namespace bccskel

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/pruning/junction_ball.h"
@@ -43,9 +44,7 @@ std::optional<double> WidthBesideTrunk(const ThinSet& set, const BranchPath& pat
                               radius, ReachFor(radius));
     wider.push_back(std::max(side - radius, 0.0));
   }
-  const auto middle = wider.begin() + static_cast<std::ptrdiff_t>(wider.size() / 2);
-  std::nth_element(wider.begin(), middle, wider.end());
-  return *middle;
+  return MedianOf(std::move(wider));
 }
 
 bool LeavesTrunk(const ThinSet& set, const FreeBranch& branch, const AxisScale& scale,
