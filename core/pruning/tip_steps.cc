@@ -6,9 +6,9 @@
 namespace bccskel {
 namespace {
 
-constexpr size_t kHeadingPoints = 10;  // the heading is the direction of the last ten points
-constexpr double kLeastCosine = 0.4;   // between the heading and a step
-constexpr double kCosineWeight = 0.5;  // weight of that cosine against the rise of the depth
+constexpr size_t kHeadingPoints = 10;     // the heading is the direction of the last ten points
+constexpr double kLeastTurnCosine = 0.4;  // between the heading and a step
+constexpr double kCosineWeight = 0.5;     // weight of that cosine against the rise of the depth
 
 }  // namespace
 
@@ -39,7 +39,7 @@ void TipSteps::Find(std::span<const LatticePoint> path, LatticePoint anchor, dou
   for (size_t rank = 0; rank < kDirections14.size(); ++rank) {
     const LatticePoint to = tip + kDirections14[rank];
     const double cosine = Cosine(from, tip, to);
-    if (cosine < kLeastCosine || !IsFreeWay(tip, to, anchor)) continue;
+    if (cosine < kLeastTurnCosine || !IsFreeWay(tip, to, anchor)) continue;
     const double length = set_.Between(tip, to), straightness = kCosineWeight * cosine;
     const double score_most = (depth_.AtMost(to) - depth) / length + straightness;
     steps_.push_back({to, rank, length, straightness, score_most});

@@ -14,7 +14,7 @@ namespace {
 constexpr double kInJunction = 0.9;  // places nearer belong to the junction, in its radii
 constexpr size_t kLeastPlaces = 3;   // fewer than these do not show a limb
 // A trunk is measured at these distances from the junction, in its radii.
-constexpr double kLeastTrunkRadii = 1.5, kTrunkRadii = 2.5, kTrunkStep = 0.5;
+constexpr double kLeastTrunkRadii = 1.5, kMostTrunkRadii = 2.5, kTrunkStep = 0.5;
 constexpr double kAsThick = 0.75;  // least radius of the trunk there, in that of the junction
 // Half-width of a round trunk, in radii plus units.
 constexpr double kRoundTrunk = 1.4, kRoundTrunkMargin = 1;
@@ -49,7 +49,7 @@ std::optional<double> WidthBesideTrunk(const ThinSet& set, const BranchPath& pat
 
 bool LeavesTrunk(const ThinSet& set, const FreeBranch& branch, const AxisScale& scale,
                  CrossSections& sections) {
-  const JunctionBall ball(set, *branch.junction, branch.points, kTrunkRadii);
+  const JunctionBall ball(set, *branch.junction, branch.points, kMostTrunkRadii);
   const auto is_round = [&](std::span<const LatticePoint> way) {
     const double radius = set.RadiusOf(way.back());
     const Coordinates along = DirectionAt(way, way.size() - 1, scale);

@@ -10,12 +10,12 @@
 namespace bccskel {
 namespace {
 
-constexpr double kStraight = 0.77;  // cosine of 40 degrees
-constexpr double kLongest = 1.6;    // in radii of the fork, of tips in caps
-constexpr double kShortest = 1.2;   // the same of ribs
-constexpr double kBack = -0.1;      // cosine of 96 degrees, for ribs
-constexpr double kLimbRadii = 2;    // least length of the limb, in radii of the fork
-constexpr double kLimbWorth = 2;    // least worth of a free limb, in worths of the other arm
+constexpr double kStraightOn = 0.77;  // cosine of 40 degrees
+constexpr double kLongest = 1.6;      // in radii of the fork, of tips in caps
+constexpr double kShortest = 1.2;     // the same of ribs
+constexpr double kBack = -0.1;        // cosine of 96 degrees, for ribs
+constexpr double kLimbRadii = 2;      // least length of the limb, in radii of the fork
+constexpr double kLimbWorth = 2;      // least worth of a free limb, in worths of the other arm
 // In radii: half-widths across a disc's rib and across its shaft, so far before the disc.
 constexpr double kWide = 1.8, kRound = 1.5, kBeforeDisc = 3;
 constexpr double kTwin = 1.15;  // largest worth of a tip that turns aside, in thresholds
@@ -83,7 +83,7 @@ void TurnedTips::Note(const ThinSet& set, const FreeBranch& going,
   const Coordinates out = set.Way(aside.fork, aside.points.back());
   const double length = std::sqrt(Dot(out, out)), radius = set.RadiusOf(aside.fork);
   const double cosine = Dot(*in, out) / (std::sqrt(Dot(*in, *in)) * length);
-  if (cosine >= kStraight) return;
+  if (cosine >= kStraightOn) return;
   Tip tip = {{aside.points.rbegin(), aside.points.rend()}, aside.worth};
   tip.in_cap = cosine > 0 && length <= kLongest * radius;
   tip.is_rib = cosine > kBack && length > kShortest * radius &&
