@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/distance/chamfer_weights.h"
+#include "core/lattice/directions.h"
 #include "core/volume/volume.h"
 
 namespace bccskel {
@@ -23,10 +24,12 @@ inline Coordinates Sum(const Coordinates& a, double t, const Coordinates& b) {
   return {a[0] + t * b[0], a[1] + t * b[1], a[2] + t * b[2]};
 }
 
+inline Coordinates Times(double t, const Coordinates& a) { return Sum({0, 0, 0}, t, a); }
+
+inline double LengthOf(const Coordinates& way) { return std::sqrt(Dot(way, way)); }
+
 // Normalizes a vector. Needs: its length is not 0.
-inline Coordinates Unit(const Coordinates& way) {
-  return Sum({0, 0, 0}, 1 / std::sqrt(Dot(way, way)), way);
-}
+inline Coordinates Unit(const Coordinates& way) { return Times(1 / LengthOf(way), way); }
 
 // Two unit vectors perpendicular to `way` and to each other. Needs: `way` has length 1.
 inline std::array<Coordinates, 2> Across(const Coordinates& way) {
@@ -39,6 +42,10 @@ inline std::array<Coordinates, 2> Across(const Coordinates& way) {
 
 inline Coordinates PlaceOf(LatticePoint p, const AxisScale& scale) {
   return {scale[0] * p.x, scale[1] * p.y, scale[2] * p.z};
+}
+
+inline Coordinates WayBetween(LatticePoint from, LatticePoint to, const AxisScale& scale) {
+  return Sum(PlaceOf(to, scale), -1, PlaceOf(from, scale));
 }
 
 // Factor for the steps of walks through the object. Where an axis is more than 16 times as long as
@@ -109,6 +116,12 @@ class NearbyBricks {
     if (window_.has_value() && !window_->Contains(p)) return true;
     const BrickAddress address = AddressOf(p);
     return object_.padded_bricks()[Find(address.brick)].Test(address.bit);
+  }
+
+  // How many of the 14 neighbors it contains. Needs: as Contains().
+  int NeighborsOf(LatticePoint p) {
+    return static_cast<int>(std::ranges::count_if(
+        kDirections14, [&](LatticePoint offset) { return Contains(p + offset); }));
   }
 
  private:

@@ -128,7 +128,7 @@ class CutFinder {
       sum = Sum(sum, depth, PlaceOf(p, scale_));
       weight += depth;
     }
-    const Coordinates centroid = Sum({0, 0, 0}, 1 / weight, sum);
+    const Coordinates centroid = Times(1 / weight, sum);
     LatticePoint middle = hill[0];
     double nearest = std::numeric_limits<double>::infinity();
     for (LatticePoint p : hill) {

@@ -171,7 +171,7 @@ class GapJoiner {
   // The neighbor nearest to the straight line, of those that lead on; the one nearest to the end
   // where none leads on far enough, as in long cells.
   LatticePoint NextOf(const Bridge& bridge, LatticePoint at) const {
-    const Coordinates line = Way(bridge.from, bridge.to);
+    const Coordinates line = WayBetween(bridge.from, bridge.to, scale_);
     std::tuple<bool, double, LatticePoint> best(true, std::numeric_limits<double>::infinity(), at);
     for (LatticePoint offset : kDirections14) {
       const LatticePoint next = at + offset;
@@ -179,14 +179,10 @@ class GapJoiner {
       if (!object_.extent().Contains(next)) continue;
       const double left = Between(next, bridge.to);
       const bool is_slow = Between(at, bridge.to) - left < kLeastProgress * Between(at, next);
-      const Coordinates aside = Cross(line, Way(next, bridge.to));
+      const Coordinates aside = Cross(line, WayBetween(next, bridge.to, scale_));
       best = std::min(best, {is_slow, is_slow ? left : Dot(aside, aside), next});
     }
     return std::get<LatticePoint>(best);
-  }
-
-  Coordinates Way(LatticePoint from, LatticePoint to) const {
-    return Sum(PlaceOf(to, scale_), -1, PlaceOf(from, scale_));
   }
 
   const Volume& object_;

@@ -38,7 +38,7 @@ constexpr size_t kRays = 2 * kTurns.size();
 Coordinates RayIn(const std::array<Coordinates, 2>& plane, size_t n) {
   const auto& [cosine, sine] = kTurns[n % kTurns.size()];
   const double sign = n < kTurns.size() ? 1 : -1;
-  return Sum(Sum({0, 0, 0}, sign * cosine, plane[0]), sign * sine, plane[1]);
+  return Turned({sign * cosine, sign * sine}, plane[0], plane[1]);
 }
 
 // Position in the path of the point from which the way to the point at `n` is measured.
@@ -250,7 +250,7 @@ BorderTips::Way BorderTips::StraightTo(const Coordinates& middle, const Face& fa
                                        const Limb& limb) {
   Way way = {face.axis, limb.from, {}};
   const Coordinates straight = Sum(middle, -1, limb.start);
-  const auto steps = static_cast<int>(std::ceil(std::sqrt(Dot(straight, straight)) / kPlaceStep));
+  const auto steps = static_cast<int>(std::ceil(LengthOf(straight) / kPlaceStep));
   for (int n = 1; n <= steps; ++n) {
     way.places.push_back(Sum(limb.start, 1.0 * n / steps, straight));
   }

@@ -18,7 +18,7 @@ void Bumps::SetLimb(std::span<const LatticePoint> limb, bool has_point) {
   least_ = 0;
   if (has_point) return;
   std::vector<int> counts;
-  for (LatticePoint p : limb) counts.push_back(NeighborsOf(p));
+  for (LatticePoint p : limb) counts.push_back(object_.NeighborsOf(p));
   least_ =
       std::clamp(static_cast<int>(MedianOf(std::move(counts))) - kThinner, kThinner, kMajority);
 }
@@ -27,11 +27,6 @@ size_t Bumps::LastFirm(std::span<const LatticePoint> limb) {
   size_t last = limb.size() - 1;
   while (last > 0 && !IsFirm(limb[last])) --last;
   return last;
-}
-
-int Bumps::NeighborsOf(LatticePoint p) {
-  return static_cast<int>(std::ranges::count_if(
-      kDirections14, [&](LatticePoint offset) { return object_.Contains(p + offset); }));
 }
 
 }  // namespace bccskel

@@ -20,13 +20,11 @@ class Bumps {
   // limb with a point ends in single points: if `has_point`, there are no bumps.
   // Needs: the limb has a point.
   void SetLimb(std::span<const LatticePoint> limb, bool has_point);
-  bool IsFirm(LatticePoint p) { return NeighborsOf(p) >= least_; }
+  bool IsFirm(LatticePoint p) { return object_.NeighborsOf(p) >= least_; }
   // Position of the last point of the limb that is no bump; 0 if all are.
   size_t LastFirm(std::span<const LatticePoint> limb);
 
  private:
-  int NeighborsOf(LatticePoint p);
-
   NearbyBricks& object_;
   int least_ = 0;
 };

@@ -29,9 +29,7 @@ CrossSection CrossSections::Across(const Coordinates& middle, const Coordinates&
                                    double reach) {
   const auto [u, v] = ::bccskel::Across(way);
   CrossSection section = {middle, way, radius, u};
-  for (const auto& [cosine, sine] : kTurns) {
-    Widen(Sum(Sum({0, 0, 0}, cosine, u), sine, v), reach, section);
-  }
+  for (const auto& turn : kTurns) Widen(Turned(turn, u, v), reach, section);
   return section;
 }
 
@@ -40,11 +38,11 @@ double CrossSections::NarrowerSide(const Coordinates& middle, const Coordinates&
   const auto [u, v] = ::bccskel::Across(way);
   const double start = std::floor(radius);
   double longest = 0;
-  for (const auto& [cosine, sine] : kTurns) {
-    const Coordinates side = Sum(Sum({0, 0, 0}, cosine, u), sine, v);
+  for (const auto& turn : kTurns) {
+    const Coordinates side = Turned(turn, u, v);
     const double there = WayOut(middle, side, start, reach);
     if (there <= longest) continue;
-    longest = std::max(longest, WayOut(middle, Sum({0, 0, 0}, -1, side), start, there));
+    longest = std::max(longest, WayOut(middle, Times(-1, side), start, there));
   }
   return longest;
 }
@@ -75,7 +73,7 @@ void CrossSections::TurnFinely(double reach, CrossSection& section) {
 bool CrossSections::Widen(const Coordinates& side, double reach, CrossSection& section) {
   const double start = std::floor(section.radius);
   const double there = WayOut(section.middle, side, start, reach);
-  const double back = WayOut(section.middle, Sum({0, 0, 0}, -1, side), start, reach);
+  const double back = WayOut(section.middle, Times(-1, side), start, reach);
   const double half_width = (there + back) / 2;
   if (half_width <= section.half_width) return false;
   section.side = side;
@@ -86,7 +84,7 @@ bool CrossSections::Widen(const Coordinates& side, double reach, CrossSection& s
 // Follows a bent wall, which a straight line soon leaves, to both sides of the widest line.
 void CrossSections::FollowWall(double reach, CrossSection& section) {
   const double there = WayInWall(FrontOf(section, section.side), section.radius, reach);
-  const Front other = FrontOf(section, Sum({0, 0, 0}, -1, section.side));
+  const Front other = FrontOf(section, Times(-1, section.side));
   const double back = WayInWall(other, section.radius, reach);
   section.half_width = std::max(section.half_width, (there + back) / 2);
 }
@@ -95,10 +93,10 @@ void CrossSections::FollowWall(double reach, CrossSection& section) {
 double CrossSections::FindInscribed(const CrossSection& section) {
   std::array<double, 3> least;
   least.fill(section.half_width);
-  for (const auto& [cosine, sine] : kTurns) {
-    const Coordinates way = Sum(Sum({0, 0, 0}, cosine, section.side), sine, section.way);
+  for (const auto& turn : kTurns) {
+    const Coordinates way = Turned(turn, section.side, section.way);
     for (const double side : {1.0, -1.0}) {
-      const Front front = FrontOf(section, Sum({0, 0, 0}, side, way));
+      const Front front = FrontOf(section, Times(side, way));
       least.back() = std::min(least.back(), WayInWall(front, section.radius, least.back()));
       std::ranges::sort(least);
     }
@@ -124,7 +122,7 @@ bool CrossSections::GoOnInWall(Front& front, double out, double radius) {
   if (out < kLeastOn * radius + 1) return false;
   const double back = std::min(out, radius);
   const double most = kMostThick * radius + 1;
-  const Coordinates below = Sum({0, 0, 0}, -1, front.normal);
+  const Coordinates below = Times(-1, front.normal);
   const auto ways = [&](const Coordinates& at) {
     return std::array{WayOut(at, front.normal, 0, most), WayOut(at, below, 0, most)};
   };
@@ -140,7 +138,7 @@ bool CrossSections::GoOnInWall(Front& front, double out, double radius) {
   const Coordinates middle = Sum(at, (thick_above - thick_below) / 2, front.normal);
   const Coordinates step = Sum(middle, -1, front.middle), way = Unit(step);
   const Coordinates normal = Unit(Sum(front.normal, -Dot(front.normal, way), way));
-  front = {middle, way, normal, front.length + std::sqrt(Dot(step, step))};
+  front = {middle, way, normal, front.length + LengthOf(step)};
   return true;
 }
 

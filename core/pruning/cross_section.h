@@ -18,6 +18,12 @@ inline constexpr std::array<std::array<double, 2>, 8> kTurns = {{{1, 0},
                                                                  {-0.70710678, 0.70710678},
                                                                  {-0.92387953, 0.38268343}}};
 
+// The direction at a turn from u toward v. Needs: u and v have length 1 and are perpendicular.
+inline Coordinates Turned(const std::array<double, 2>& turn, const Coordinates& u,
+                          const Coordinates& v) {
+  return Sum(Times(turn[0], u), turn[1], v);
+}
+
 // A cross-section of the object at a point of a branch. All lengths are in lattice units.
 struct CrossSection {
   Coordinates middle, way;  // `way`: direction of the branch, of length 1

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "core/lattice/directions.h"
-
 namespace bccskel {
 namespace {
 
@@ -44,10 +42,7 @@ float FirmDepth::Search(LatticePoint p) {
   return depth;
 }
 
-bool FirmDepth::IsPit(LatticePoint q) {
-  const auto in_object = [&](LatticePoint offset) { return bricks_.Contains(q + offset); };
-  return std::ranges::count_if(kDirections14, in_object) >= kFirmMajority;
-}
+bool FirmDepth::IsPit(LatticePoint q) { return bricks_.NeighborsOf(q) >= kFirmMajority; }
 
 void FirmDepth::Remember(LatticePoint background) {
   lately_[oldest_] = background;

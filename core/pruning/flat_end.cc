@@ -161,7 +161,7 @@ bool FlatEnd::Step(Walker& walker) {
 // Moves at most half a step sideways, and not near the rim ahead.
 FlatEnd::Sides FlatEnd::MoveToMiddle(Walker& walker, double widest) {
   const double longest = kMostWiden * widest + kFlatMargin;
-  const Coordinates left = Cross(walker.normal, walker.way), right = Sum({0, 0, 0}, -1, left);
+  const Coordinates left = Cross(walker.normal, walker.way), right = Times(-1, left);
   const auto [place, normal, way] = walker;
   const double to_left = sheet_.WayToSide(place, way, left, normal, longest);
   const double to_right = sheet_.WayToSide(place, way, right, normal, longest);
@@ -215,7 +215,7 @@ Coordinates FlatEnd::WayToBackground(std::span<const LatticePoint> path, size_t 
   if (!way.has_value()) {
     const LatticePoint p = path[position];
     const LatticePoint background = radius_.FirstNearestAt(p, set.RadiusOf(p));
-    way = Unit(Sum(PlaceOf(background, scale_), -1, PlaceOf(p, scale_)));
+    way = Unit(WayBetween(p, background, scale_));
   }
   return *way;
 }

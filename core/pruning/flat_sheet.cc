@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/pruning/cross_section.h"
+
 namespace bccskel {
 namespace {
 
@@ -13,15 +15,9 @@ constexpr double kMostSheetThick = 24;      // largest thickness to either side
 constexpr double kLeastNormalCosine = 0.7;  // between the normal and the nearest background
 constexpr double kNormalWeight = 0.25;      // weight of a new normal
 
-// Eighths of half a turn, from the first: cosine and sine.
-constexpr std::array<std::array<double, 2>, 8> kSpreadTurns = {{{1, 0},
-                                                                {0, 1},
-                                                                {0.70710678, 0.70710678},
-                                                                {-0.70710678, 0.70710678},
-                                                                {0.92387953, 0.38268343},
-                                                                {-0.38268343, 0.92387953},
-                                                                {0.38268343, 0.92387953},
-                                                                {-0.92387953, 0.38268343}}};
+// The order in which lines are measured, in kTurns: widely spread ones first, since a short line
+// limits the others.
+constexpr std::array<size_t, 8> kSpreadTurns = {0, 4, 2, 6, 1, 5, 3, 7};
 
 }  // namespace
 
@@ -34,10 +30,10 @@ FlatSheet::FlatSheet(const Volume& object, const ExactRadius& radius)
 double FlatSheet::WidthAt(const Coordinates& place, const Coordinates& normal, double longest) {
   double width = longest;
   const auto [u, v] = Across(normal);
-  for (const auto& [cosine, sine] : kSpreadTurns) {
-    const Coordinates way = Sum(Sum({0, 0, 0}, cosine, u), sine, v);
+  for (const size_t turn : kSpreadTurns) {
+    const Coordinates way = Turned(kTurns[turn], u, v);
     for (const double side : {1.0, -1.0}) {
-      width = WayToRim(place, Sum({0, 0, 0}, side, way), normal, width);
+      width = WayToRim(place, Times(side, way), normal, width);
     }
   }
   return width;
@@ -46,10 +42,9 @@ double FlatSheet::WidthAt(const Coordinates& place, const Coordinates& normal, d
 double FlatSheet::WayToSide(const Coordinates& place, const Coordinates& way,
                             const Coordinates& side, const Coordinates& normal, double longest) {
   double shortest = longest;
-  for (size_t turn = 1; turn < kSpreadTurns.size(); ++turn) {
-    const auto& [cosine, sine] = kSpreadTurns[turn];
-    const Coordinates out = Sum(Sum({0, 0, 0}, cosine, way), sine, side);
-    shortest = WayToRim(place, out, normal, shortest);
+  for (const size_t turn : kSpreadTurns) {
+    if (turn == 0) continue;
+    shortest = WayToRim(place, Turned(kTurns[turn], way, side), normal, shortest);
   }
   return shortest;
 }
@@ -102,7 +97,7 @@ Coordinates FlatSheet::NormalNear(const Coordinates& place, const Coordinates& n
   const LatticePoint p = PointNear(place, scale_);
   if (!bricks_.Contains(p)) return normal;
   const LatticePoint background = radius_.FirstNearestAt(p, radius_.At(p));
-  const Coordinates way = Unit(Sum(PlaceOf(background, scale_), -1, PlaceOf(p, scale_)));
+  const Coordinates way = Unit(WayBetween(p, background, scale_));
   const double cosine = Dot(normal, way);
   if (std::abs(cosine) < kLeastNormalCosine) return normal;
   return Unit(Sum(normal, kNormalWeight * std::copysign(cosine * cosine, cosine), way));

@@ -122,7 +122,7 @@ std::optional<Coordinates> DirectionOnArc(const ThinSet& set, std::span<const La
     bend = Sum(bend, bow(at[n]), place);
     weight += bow(at[n]) * bow(at[n]);
   }
-  bend = Sum({}, 1 / weight, bend);
+  bend = Times(1 / weight, bend);
   double off = 0;  // squared
   for (size_t n = 0; n < points.size(); ++n) {
     const Coordinates fitted = Sum(Sum(middle, at[n], slope), bow(at[n]), bend);

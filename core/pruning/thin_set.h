@@ -74,14 +74,11 @@ class ThinSet {
   double Between(LatticePoint a, LatticePoint b) const { return StraightDistance(a, b, scale_); }
 
   // The vector between the points, in lattice units.
-  Coordinates Way(LatticePoint from, LatticePoint to) const {
-    return Sum(PlaceOf(to, scale_), -1, PlaceOf(from, scale_));
-  }
+  Coordinates Way(LatticePoint from, LatticePoint to) const { return WayBetween(from, to, scale_); }
 
   // Straight distance to a place between points.
   double Between(LatticePoint a, const Coordinates& place) const {
-    const Coordinates way = Sum(place, -1, PlaceOf(a, scale_));
-    return std::sqrt(Dot(way, way));
+    return LengthOf(Sum(place, -1, PlaceOf(a, scale_)));
   }
 
   // The points as a skeleton on the grid of `like`, with its births: points that were removed and

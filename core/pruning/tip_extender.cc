@@ -43,7 +43,7 @@ void TipExtender::Append(BranchPath& path) {
     for (const LatticePoint& direction : kDirections14) {
       const LatticePoint to = at + direction;
       const Coordinates step = PlaceOf(direction, scale_);
-      const double length = std::sqrt(Dot(step, step)), cosine = Dot(step, aim) / length;
+      const double length = LengthOf(step), cosine = Dot(step, aim) / length;
       if (cosine < kLeastStepCosine || !bricks_.Contains(to)) continue;
       const Coordinates way = Sum(PlaceOf(to, scale_), -1, end);
       if (Dot(way, way) > kLongest * kLongest) continue;
@@ -75,7 +75,7 @@ void TipExtender::AppendOverSheet(BranchPath& path) {
 Coordinates DirectionAt(std::span<const LatticePoint> path, size_t n, const AxisScale& scale) {
   const LatticePoint from = path[n - std::min(n, kWayReach)];
   const LatticePoint to = path[std::min(n + kWayReach, path.size() - 1)];
-  return Unit(Sum(PlaceOf(to, scale), -1, PlaceOf(from, scale)));
+  return Unit(WayBetween(from, to, scale));
 }
 
 bool ExtendAcrossBorder(const std::optional<LatticeBox>& image, const AxisScale& scale,

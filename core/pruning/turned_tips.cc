@@ -81,8 +81,8 @@ void TurnedTips::Note(const ThinSet& set, const FreeBranch& going,
   const std::optional<Coordinates> in = WayOfLimb(set, limb, aside.fork);
   if (!in.has_value()) return;
   const Coordinates out = set.Way(aside.fork, aside.points.back());
-  const double length = std::sqrt(Dot(out, out)), radius = set.RadiusOf(aside.fork);
-  const double cosine = Dot(*in, out) / (std::sqrt(Dot(*in, *in)) * length);
+  const double length = LengthOf(out), radius = set.RadiusOf(aside.fork);
+  const double cosine = Dot(*in, out) / (LengthOf(*in) * length);
   if (cosine >= kStraightOn) return;
   Tip tip = {{aside.points.rbegin(), aside.points.rend()}, aside.worth};
   tip.in_cap = cosine > 0 && length <= kLongest * radius;

@@ -20,9 +20,8 @@ namespace bccskel {
 //        - it leaves the direction of the limb by 40 to 90 degrees: a smaller angle continues the
 //          limb, a larger one belongs to another limb;
 //        - it is at most 1.6 radii of the fork long, so it lies in the cap of the limb, or it may
-//        be
-//          a rib, such as one of those of a disc at the end of a shaft: longer than 1.2 radii, but
-//          no longer than the limb. Then the angle may be 96 degrees;
+//          be a rib, such as one of those of a disc at the end of a shaft: longer than 1.2 radii,
+//          but no longer than the limb. Then the angle may be 96 degrees;
 //        - the limb before it is a curve at least two radii long and, if that curve has a free end
 //          as well, is worth at least twice as much.
 // Why it is right: nothing is removed here, and recorded points form a path from an end.

@@ -79,7 +79,7 @@ class DiscCenters {
       }
     }
     if (weights == 0) return {0, 0, 0};
-    const Coordinates center = Sum({0, 0, 0}, 1 / weights, sum);
+    const Coordinates center = Times(1 / weights, sum);
     return Sum(center, -Dot(center, way), way);
   }
 
@@ -110,8 +110,7 @@ class SmoothPart {
   // The way of the curve, of length 1; none where it stands still.
   Coordinates WayAt(size_t n) const {
     const Coordinates way = Sum(At(n + kTangentReach), -1, At(n - kTangentReach));
-    const double length = std::sqrt(Dot(way, way));
-    return length == 0 ? way : Sum({0, 0, 0}, 1 / length, way);
+    return LengthOf(way) == 0 ? way : Unit(way);
   }
 
  private:

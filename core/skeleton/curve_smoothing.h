@@ -38,9 +38,9 @@ Coordinates MeanAt(ValueAt value_at, size_t size, size_t n, CurveShape shape) {
   };
   const size_t last = range.count - 1;
   if (last == 0) return value(0);
-  Coordinates sum = Sum(Sum({0, 0, 0}, 0.5, value(0)), 0.5, value(last));
+  Coordinates sum = Sum(Times(0.5, value(0)), 0.5, value(last));
   for (size_t k = 1; k < last; ++k) sum = Sum(sum, 1, value(k));
-  return Sum({0, 0, 0}, 1 / static_cast<double>(last), sum);
+  return Times(1 / static_cast<double>(last), sum);
 }
 
 // MeanAt() for each value along a curve.

@@ -226,8 +226,7 @@ class Merger {
     const auto points = graph_.PointsOf(edge);
     double length = 0;
     for (size_t n = 1; n < points.size(); ++n) {
-      const Coordinates step = Between(PlaceAt(points[n - 1]), PlaceAt(points[n]));
-      length += std::sqrt(Dot(step, step));
+      length += bccskel::LengthOf(Between(PlaceAt(points[n - 1]), PlaceAt(points[n])));
     }
     return length;
   }
