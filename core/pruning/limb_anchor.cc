@@ -18,6 +18,12 @@ constexpr size_t kLeastOnArc = 5;  // points
 constexpr double kWayRadii = 2;    // length of the ridge's last part, which shows how it continues
 constexpr double kFreeRadii = 0.25;  // distance from the continuation without penalty, in radii
 constexpr double kFreeMargin = 1;    // plus lattice units
+// Of ridges that turn away.
+constexpr double kTurnRadii = 0.75;
+constexpr double kTurnMargin = 2;       // plus lattice units
+constexpr double kBodyTurnRadii = 1.2;  // the same for bodies
+constexpr double kBodySlope = 0.45;     // instead of kRidgeSlope
+constexpr double kThickerBody = 1.4;    // least radius, in radii of the limb
 
 // Position of the last point, within a cap at the end, up to which the radius certainly follows a
 // ridge: beyond it the path may turn into a corner. The end comes first.
@@ -65,6 +71,21 @@ size_t FarthestAnchor(const ThinSet& set, const FreeBranch& branch) {
   if (branch.junction.has_value()) return size;
   const std::vector<LatticePoint> back(branch.points.rbegin(), branch.points.rend());
   return std::max(size - 1 - RidgeEnd(set, back), size / 2);
+}
+
+// Position in the path of the last point up to which the depth falls by less than `slope` per unit
+// of the path, wherever that leads.
+size_t RidgeEndBy(double slope, const ThinSet& set, FirmDepth& depth, const LimbEnd& limb) {
+  size_t best = limb.first;
+  double length = 0, most = depth.At(limb.path[limb.first]);
+  for (size_t n = limb.first + 1; n < limb.path.size(); ++n) {
+    length += set.Between(limb.path[n - 1], limb.path[n]);
+    const double merit = slope * length + depth.At(limb.path[n]);
+    if (merit < most) continue;
+    best = n;
+    most = merit;
+  }
+  return best;
 }
 
 }  // namespace
@@ -152,6 +173,21 @@ WayOn WayOnFrom(const ThinSet& set, double step, LatticePoint anchor,
   const LatticePoint before = n > 0 ? path[n] : anchor;
   const bool too_near = before == end || set.Between(before, end) < kLeastWayRadii * radius;
   return too_near ? WayOn() : StraightOn(set.Way(before, end), radius);
+}
+
+std::optional<size_t> RidgeEndAside(const ThinSet& set, FirmDepth& depth, const LimbEnd& limb) {
+  const size_t end = RidgeEndBy(kRidgeSlope, set, depth, limb);
+  const double least = kTurnRadii * set.RadiusOf(limb.path[end]) + kTurnMargin;
+  if (set.Between(limb.straight, limb.path[end]) > least) return end;
+  const size_t body_end = RidgeEndBy(kBodySlope, set, depth, limb);
+  const LatticePoint body =
+      *std::ranges::max_element(limb.path.subspan(limb.first, body_end + 1 - limb.first), {},
+                                [&](LatticePoint p) { return set.RadiusOf(p); });
+  const double radius = set.RadiusOf(body);
+  if (radius < kThickerBody * limb.radius) return std::nullopt;
+  const double far = kBodyTurnRadii * radius + kTurnMargin;
+  if (set.Between(body, limb.path[body_end]) < far) return std::nullopt;
+  return body_end;
 }
 
 }  // namespace bccskel

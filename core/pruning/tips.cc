@@ -20,7 +20,6 @@
 #include "core/pruning/last_limb.h"
 #include "core/pruning/limb_anchor.h"
 #include "core/pruning/prune.h"
-#include "core/pruning/ridge_end.h"
 #include "core/pruning/tip_steps.h"
 
 namespace bccskel {
