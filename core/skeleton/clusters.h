@@ -6,13 +6,19 @@
 #include <vector>
 
 #include "core/exec/stop_poll.h"
-#include "core/skeleton/cluster_topology.h"
 #include "core/skeleton/thin_points.h"
 
 namespace bccskel {
 
 // Position of a cluster in Clusters.
 using ClusterIndex = uint32_t;
+
+struct ClusterTopology {
+  uint32_t loops = 0;
+  uint32_t cavities = 0;
+
+  friend bool operator==(const ClusterTopology&, const ClusterTopology&) = default;
+};
 
 // A cluster of points; end points and isolated points are clusters of one point.
 struct Cluster {
