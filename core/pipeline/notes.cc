@@ -10,6 +10,7 @@
 #include "core/certificate/describe_changes.h"
 #include "core/distance/chamfer_weights.h"
 #include "core/distance/places.h"
+#include "core/pipeline/skeletonize_within.h"
 #include "core/skeleton/narrow_loops.h"
 #include "core/skeleton/skeleton_figures.h"
 
@@ -79,9 +80,7 @@ void AddNarrowLoops(const SkeletonizeResult& result, Notes& notes) {
 class VoxelPointCounts {
  public:
   explicit VoxelPointCounts(const SkeletonizeOptions& options) {
-    if (options.source != ObjectSource::kVoxels && options.source != ObjectSource::kRefinedVoxels) {
-      return;
-    }
+    if (!IsConverted(options.source)) return;
     for (size_t axis = 0; axis < 3; ++axis) {
       parts_[axis] = CellsPerVoxel(options.source) * std::max(options.voxel_slabs[axis], 1);
     }
