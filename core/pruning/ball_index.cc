@@ -21,8 +21,7 @@ size_t LevelOf(float radius) {
 
 }  // namespace
 
-BallIndex::BallIndex(const ThinSet& set, const AxisScale& scale, const exec::Context& context)
-    : scale_(scale) {
+BallIndex::BallIndex(const ThinSet& set, const exec::Context& context) : scale_(set.scale()) {
   StopPoll poll(context);
   std::vector<std::pair<uint32_t, Ball>> found;  // with the number of its cube
   set.ForEachPoint([&](LatticePoint p) {

@@ -24,7 +24,7 @@ class BallIndex {
  public:
   // Indexes the points that `set` contains now, with their radii. Points may be removed from the
   // set later. The index is incomplete if the context requests a stop.
-  BallIndex(const ThinSet& set, const AxisScale& scale, const exec::Context& context = {});
+  explicit BallIndex(const ThinSet& set, const exec::Context& context = {});
 
   // Selects the branch that the following IsCovered() calls are about.
   void SetOwn(std::span<const LatticePoint> own);

@@ -138,8 +138,8 @@ PruningLevels PruningLevelsOf(ThinSet set, Significance& significance, PruningRu
   constexpr double kNever = std::numeric_limits<double>::infinity();
   PruningLevels levels;
   StopPoll poll(context);
-  set.ForEachCurvePoint([&](LatticePoint p) {
-    if (!poll.Stopped()) levels.Set(p, kNever);
+  set.ForEachPoint([&](LatticePoint p) {
+    if (!poll.Stopped() && !set.Branches(p)) levels.Set(p, kNever);
   });
   double level = 0;
   const auto record = [&](LatticePoint p, double worth) {

@@ -156,8 +156,8 @@ std::vector<LatticePoint> JunctionAt(LatticePoint p, const ThinSet& set,
 // The deepest point of each junction, of those in balls that are large enough.
 std::vector<LatticePoint> JunctionsOf(const ThinSet& set, const Significance& significance) {
   std::vector<LatticePoint> points, deepest;
-  set.ForEachJunctionPoint([&](LatticePoint p) {
-    if (significance.MayHaveBodyEnds(set.RadiusOf(p))) points.push_back(p);
+  set.ForEachPoint([&](LatticePoint p) {
+    if (set.Branches(p) && significance.MayHaveBodyEnds(set.RadiusOf(p))) points.push_back(p);
   });
   std::ranges::sort(points);
   PointTable<char> in_surface;

@@ -90,7 +90,8 @@ size_t RidgeEndBy(double slope, const ThinSet& set, FirmDepth& depth, const Limb
 
 }  // namespace
 
-LatticePoint TakeAnchor(const ThinSet& set, double step, FreeBranch& branch) {
+LatticePoint TakeAnchor(const ThinSet& set, FreeBranch& branch) {
+  const double step = std::ranges::max(set.scale());
   std::vector<LatticePoint>& points = branch.points;
   const size_t front = RidgeEnd(set, points);
   const size_t farthest = FarthestAnchor(set, branch);
@@ -164,8 +165,8 @@ WayOn StraightOn(const Coordinates& way, double radius) {
   return {Unit(way), kFreeRadii * radius + kFreeMargin};
 }
 
-WayOn WayOnFrom(const ThinSet& set, double step, LatticePoint anchor,
-                std::span<const LatticePoint> path) {
+WayOn WayOnFrom(const ThinSet& set, LatticePoint anchor, std::span<const LatticePoint> path) {
+  const double step = std::ranges::max(set.scale());
   const LatticePoint end = path.back();
   const double radius = set.RadiusOf(end), back = std::max(kWayRadii * radius, kLeastAim * step);
   size_t n = path.size() - 1;

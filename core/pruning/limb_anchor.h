@@ -29,9 +29,8 @@ inline constexpr double kLeastAim = 4;
 // The point from which the direction of a limb is measured: four radii and 5 steps back from its
 // end, or the junction, or where the ridge begins at the other end of a path without one. Where the
 // limb bends, it lies no farther back than the limb is straight. Keeps the branch's points between
-// its end and the anchor.
-// Shapes: `step` is the longest step along an axis, in lattice units.
-LatticePoint TakeAnchor(const ThinSet& set, double step, FreeBranch& branch);
+// its end and the anchor. Steps are the longest along an axis.
+LatticePoint TakeAnchor(const ThinSet& set, FreeBranch& branch);
 
 // The direction, of length 1, of an arc through the points of a limb, `ahead` units behind the last
 // of them: there a limb cut flat has its face. The arc is the parabola of least squares. None if
@@ -61,10 +60,8 @@ WayOn StraightOn(const Coordinates& way, double radius);
 // The continuation in the direction of the last two radii of the path, at least four steps; in the
 // direction from the anchor if the path is shorter. Without a penalty if even that is shorter than
 // half the radius.
-// Shapes: `path` comes from `anchor`, which is not part of it, and ends where the ridge ends;
-//         `step` as above.
-WayOn WayOnFrom(const ThinSet& set, double step, LatticePoint anchor,
-                std::span<const LatticePoint> path);
+// Shapes: `path` comes from `anchor`, which is not part of it, and ends where the ridge ends.
+WayOn WayOnFrom(const ThinSet& set, LatticePoint anchor, std::span<const LatticePoint> path);
 
 // The end of a limb before its tip is placed.
 struct LimbEnd {

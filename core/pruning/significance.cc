@@ -86,7 +86,7 @@ double Significance::Of(const ThinSet& set, const FreeBranch& branch) {
     if (value >= kLeastRatio) value *= uncovered;
     beside_trunk *= uncovered;
   }
-  if (beside_trunk > std::max(value, kLeastRatio) && LeavesTrunk(set, branch, scale_, sections_)) {
+  if (beside_trunk > std::max(value, kLeastRatio) && LeavesTrunk(set, branch, sections_)) {
     value = beside_trunk;
   }
   return value < kSureRatio ? std::max(value, OfBodyEnd(set, branch, value)) : value;
@@ -98,7 +98,7 @@ double Significance::BesideTrunk(const ThinSet& set, const BranchPath& path, con
   const double simple = run.elongation - noise_.Stretch(along) * noise_.At(root) - kNoiseMargin;
   const double out = (1 - rough) * BeyondNoise(run.elongation, root, along) + rough * simple;
   if (out < kLeastRatio * root) return 0;
-  const auto wider = WidthBesideTrunk(set, path, run, scale_, sections_);
+  const auto wider = WidthBesideTrunk(set, path, run, sections_);
   return wider.has_value() ? out / (root + kWidthShare * *wider) : 0;
 }
 
@@ -155,7 +155,7 @@ bool Significance::MayHaveBodyEnds(double radius) const {
 
 bool Significance::IsCovered(const ThinSet& set, std::span<const LatticePoint> path,
                              LatticePoint next, double radius) {
-  if (!balls_.has_value()) balls_.emplace(set, scale_);
+  if (!balls_.has_value()) balls_.emplace(set);
   balls_->SetOwn(path);
   return balls_->IsCovered(next, radius, set.Between(next, path.front()), set);
 }
@@ -189,7 +189,7 @@ void Significance::LookAhead(const ThinSet& set, std::span<const FreeBranch> bra
     if (context.ShouldStop()) return;
     for (size_t n = 0; n < unknown.size(); ++n) verdicts_.Set(unknown[n]->points[0], found[n]);
   }
-  if (!balls_.has_value()) balls_.emplace(set, scale_, context);  // now: workers need no copies
+  if (!balls_.has_value()) balls_.emplace(set, context);  // now: workers need no copies
 }
 
 const Significance::Verdict* Significance::Known(const FreeBranch& branch) const {
@@ -373,7 +373,7 @@ void Significance::LookPastPits(BranchPath& path) {
 
 // Skips points near the junction, where other branches are always near.
 double Significance::UncoveredShare(const ThinSet& set, const FreeBranch& branch, const Run& run) {
-  if (!balls_.has_value()) balls_.emplace(set, scale_);
+  if (!balls_.has_value()) balls_.emplace(set);
   balls_->SetOwn(branch.points);
   const size_t stride = (run.to - run.from) / kCoverSamples + 1;
   const size_t last = std::min(run.to, branch.points.size());

@@ -54,21 +54,6 @@ class ThinSet {
   void ForEachPoint(Visit visit) const {
     points_.ForEach([&](LatticePoint p, const Entry&) { visit(p); });
   }
-  // The same for points with at most two neighbors: inner points of curves and ends.
-  template <typename Visit>
-  void ForEachCurvePoint(Visit visit) const {
-    points_.ForEach([&](LatticePoint p, const Entry& entry) {
-      if (!HasThreeOrMore(entry.neighbors)) visit(p);
-    });
-  }
-
-  // And for those with three or more, as in junctions and surfaces.
-  template <typename Visit>
-  void ForEachJunctionPoint(Visit visit) const {
-    points_.ForEach([&](LatticePoint p, const Entry& entry) {
-      if (HasThreeOrMore(entry.neighbors)) visit(p);
-    });
-  }
 
   // Straight distance in lattice units.
   double Between(LatticePoint a, LatticePoint b) const { return StraightDistance(a, b, scale_); }

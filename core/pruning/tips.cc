@@ -54,7 +54,7 @@ class TipPlacer {
         last_limb_(object, noise),
         keep_(keep),
         turned_(turned),
-        balls_(set, AxisScaleOf(object.placement()), context),
+        balls_(set, context),
         scale_(AxisScaleOf(object.placement())),
         step_(std::ranges::max(scale_)),
         least_gain_(kGainBySteps * noise.step + kGainByNoise * noise.thin),
@@ -70,7 +70,7 @@ class TipPlacer {
     CutTurned(branch, &TurnedTips::Tip::is_rib);
     if (CutFlat(branch)) return;
     CutTurned(branch, &TurnedTips::Tip::in_cap);
-    anchor_ = TakeAnchor(set_, step_, branch);
+    anchor_ = TakeAnchor(set_, branch);
     if (branch.points.empty()) return;
     path_.assign(branch.points.rbegin(), branch.points.rend());
     CutBumps();
@@ -291,7 +291,7 @@ class TipPlacer {
     CutAfter(turned.value_or(straight));
     first = turned.value_or(first);
     ridge_end_ = path_.back();
-    WayOn on = WayOnFrom(set_, step_, anchor_, path_);
+    WayOn on = WayOnFrom(set_, anchor_, path_);
     if (FollowBend()) on.way = direction_;
     Extend();
     const double corner = kCornerRadii * set_.RadiusOf(ridge_end_) + kCutMargin;

@@ -32,7 +32,7 @@ size_t FirstPlaceOutside(const ThinSet& set, const BranchPath& path, const Run& 
 }
 
 std::optional<double> WidthBesideTrunk(const ThinSet& set, const BranchPath& path, const Run& run,
-                                       const AxisScale& scale, CrossSections& sections) {
+                                       CrossSections& sections) {
   const size_t first = FirstPlaceOutside(set, path, run);
   if (first + kLeastPlaces > kRunPlaces) return std::nullopt;
   std::vector<double> wider;
@@ -40,20 +40,19 @@ std::optional<double> WidthBesideTrunk(const ThinSet& set, const BranchPath& pat
     const size_t n = PlaceIn(run, place);
     const double radius = path.radii[n];
     const double side =
-        sections.NarrowerSide(PlaceOf(path.points[n], scale), DirectionAt(path.points, n, scale),
-                              radius, ReachFor(radius));
+        sections.NarrowerSide(PlaceOf(path.points[n], set.scale()),
+                              DirectionAt(path.points, n, set.scale()), radius, ReachFor(radius));
     wider.push_back(std::max(side - radius, 0.0));
   }
   return MedianOf(std::move(wider));
 }
 
-bool LeavesTrunk(const ThinSet& set, const FreeBranch& branch, const AxisScale& scale,
-                 CrossSections& sections) {
+bool LeavesTrunk(const ThinSet& set, const FreeBranch& branch, CrossSections& sections) {
   const JunctionBall ball(set, *branch.junction, branch.points, kMostTrunkRadii);
   const auto is_round = [&](std::span<const LatticePoint> way) {
     const double radius = set.RadiusOf(way.back());
-    const Coordinates along = DirectionAt(way, way.size() - 1, scale);
-    return sections.Across(PlaceOf(way.back(), scale), along, radius, ReachFor(radius))
+    const Coordinates along = DirectionAt(way, way.size() - 1, set.scale());
+    return sections.Across(PlaceOf(way.back(), set.scale()), along, radius, ReachFor(radius))
                .half_width <= kRoundTrunk * radius + kRoundTrunkMargin;
   };
   double thickest = 0;

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <optional>
 
-#include "core/distance/places.h"
 #include "core/pruning/branch_walk.h"
 #include "core/pruning/cross_section.h"
 #include "core/pruning/largest_run.h"
@@ -22,14 +21,13 @@ size_t FirstPlaceOutside(const ThinSet& set, const BranchPath& path, const Run& 
 // the ball at the junction, each measured to the narrower side. No value if they are fewer than
 // three. Lattice units.
 std::optional<double> WidthBesideTrunk(const ThinSet& set, const BranchPath& path, const Run& run,
-                                       const AxisScale& scale, CrossSections& sections);
+                                       CrossSections& sections);
 
 // Whether the other branches at the junction belong to a trunk: some radii on, the object is round
 // across each of them, and one is about as thick as the junction. In a plate or a flat limb, and in
 // a head on a neck, they do not.
 // Needs: the branch has a junction.
-bool LeavesTrunk(const ThinSet& set, const FreeBranch& branch, const AxisScale& scale,
-                 CrossSections& sections);
+bool LeavesTrunk(const ThinSet& set, const FreeBranch& branch, CrossSections& sections);
 
 }  // namespace bccskel
 

@@ -180,7 +180,7 @@ uint64_t WorkForTip(double ball) {
   const LatticePoint tip = points.back();
   ThinSet set({VolumeOfPoints({}), {}});
   for (size_t n = 0; n < points.size(); ++n) set.Add(points[n], radii[n]);
-  BallIndex index(set, kIsotropic);
+  BallIndex index(set);
   index.SetOwn(std::span(points).last(points.size() / static_cast<size_t>(spines)));
   return WorkOf([&] { EXPECT_FALSE(index.IsCovered(tip, kSpine, ball, set)); });
 }

@@ -37,7 +37,7 @@ TEST(BallIndex, CoversWhatSomeBallOfAnotherBranchCovers) {
   for (LatticePoint p : points) radii.push_back(radius_at(p));
   ThinSet set({thin, radii});
   std::ranges::shuffle(points, random);
-  BallIndex index(set, kIsotropic);
+  BallIndex index(set);
   size_t covered = 0;
   for (size_t n = 0; n + 20 < points.size(); n += 20) {
     const std::vector<LatticePoint> own(points.begin() + static_cast<std::ptrdiff_t>(n),
