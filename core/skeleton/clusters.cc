@@ -119,26 +119,25 @@ class SurfaceWalk {
   std::vector<Patch> open_;
 };
 
-// Counts loops and cavities of a connected set of points in isolation.
-// Shapes: `cluster` holds the set; masks[p] has the neighbors of each of its points that belong to
-//         the set; `seen` is scratch memory of the same size, zero for unvisited points.
+// Counts the loops and cavities of a cluster in isolation.
+// Shapes: masks[p] has the neighbors of each of its points that belong to the cluster; `seen` is
+//         scratch memory of the same size, zero for unvisited points.
 // Cost:   proportional to the number of points.
-ClusterTopology MeasureCluster(const ThinPoints& points, std::span<const PointIndex> cluster,
-                               std::span<const NeighborMask> masks, std::span<NeighborMask> seen,
-                               StopPoll& poll) {
+void MeasureTopology(const ThinPoints& points, std::span<const NeighborMask> masks,
+                     std::span<NeighborMask> seen, StopPoll& poll, Cluster& cluster) {
   int64_t chi = 0;
-  for (PointIndex p : cluster) chi += EulerTerm(masks[p]);
+  for (PointIndex p : cluster.points) chi += EulerTerm(masks[p]);
   // It takes a point's 14 neighbors to enclose it.
-  uint32_t surfaces = cluster.size() < kNeighborCount ? 1 : 0;
+  uint32_t surfaces = cluster.points.size() < kNeighborCount ? 1 : 0;
   if (surfaces == 0) {
     SurfaceWalk walk(points, masks, seen, poll);
-    for (PointIndex p : cluster) {
+    for (PointIndex p : cluster.points) {
       if (poll.Stopped()) break;
       surfaces += walk.CountNewSurfaces(p);
     }
   }
-  const uint32_t cavities = surfaces - 1;
-  return {static_cast<uint32_t>(1 + int64_t{cavities} - chi), cavities};
+  cluster.cavities = surfaces - 1;
+  cluster.loops = static_cast<uint32_t>(1 + int64_t{cluster.cavities} - chi);
 }
 
 }  // namespace
@@ -153,7 +152,7 @@ Clusters::Clusters(const ThinPoints& points, StopPoll& poll)
   for (PointIndex p = 0; p < points.size() && !poll.Stopped(); ++p) {
     if (IsPlainCurvePoint(p) || collected_[p] != 0) continue;
     Cluster cluster = Collect(points, p, poll);
-    cluster.topology = MeasureCluster(points, cluster.points, inner_masks_, seen, poll);
+    MeasureTopology(points, inner_masks_, seen, poll, cluster);
     clusters_.push_back(std::move(cluster));
   }
 }

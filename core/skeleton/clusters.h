@@ -13,20 +13,14 @@ namespace bccskel {
 // Position of a cluster in Clusters.
 using ClusterIndex = uint32_t;
 
-struct ClusterTopology {
-  uint32_t loops = 0;
-  uint32_t cavities = 0;
-
-  friend bool operator==(const ClusterTopology&, const ClusterTopology&) = default;
-};
-
 // A cluster of points; end points and isolated points are clusters of one point.
 struct Cluster {
   std::vector<PointIndex> points;  // increasing
-  ClusterTopology topology;
+  uint32_t loops = 0;              // that it encloses, and cavities
+  uint32_t cavities = 0;
   uint32_t branches = 0;  // pairs of neighbors, one inside the cluster and one outside
 
-  bool IsContractible() const { return topology == ClusterTopology{}; }
+  bool IsContractible() const { return loops == 0 && cavities == 0; }
   // A thick spot inside one branch. It is not a node of the graph.
   bool IsBend() const { return IsContractible() && branches == 2; }
 };

@@ -26,9 +26,9 @@ namespace bccskel {
 namespace {
 
 NodeKind KindOf(const Cluster& cluster) {
-  if (cluster.topology.cavities > 0) return NodeKind::kClosedSurface;
-  if (cluster.topology.loops == 1 && cluster.branches == 0) return NodeKind::kLoop;
-  if (cluster.topology.loops > 0 || cluster.branches > 1) return NodeKind::kJunction;
+  if (cluster.cavities > 0) return NodeKind::kClosedSurface;
+  if (cluster.loops == 1 && cluster.branches == 0) return NodeKind::kLoop;
+  if (cluster.loops > 0 || cluster.branches > 1) return NodeKind::kJunction;
   return cluster.branches == 1 ? NodeKind::kEnd : NodeKind::kIsolated;
 }
 
@@ -104,7 +104,7 @@ class GraphBuilder {
   void FindStarts(const Branches& branches) {
     const auto add = [&](ClusterIndex c, PointIndex p) {
       const Cluster& cluster = clusters_[c];
-      const size_t paths = cluster.branches + 2 * size_t{cluster.topology.loops};
+      const size_t paths = cluster.branches + 2 * size_t{cluster.loops};
       if (paths * cluster.points.size() > kFewPathPoints) starts_[c].push_back(p);
     };
     for (const Branch& branch : branches.between) {
@@ -120,9 +120,9 @@ class GraphBuilder {
     SkeletonNode node{kind, {}, 0, 0};
     ClusterLoops loops;
     if (kind == NodeKind::kClosedSurface) {
-      node.loops = cluster.topology.loops;
-      node.cavities = cluster.topology.cavities;
-    } else if (cluster.topology.loops > 0) {
+      node.loops = cluster.loops;
+      node.cavities = cluster.cavities;
+    } else if (cluster.loops > 0) {
       loops = loops_.Find(cluster);
       at = loops.at;
     }
