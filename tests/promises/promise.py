@@ -1,14 +1,12 @@
-"""What a promise does first: read its arguments, find the server and the Python code of the interface."""
+"""What a promise does first: read its arguments and find the server."""
 
 import argparse
 import os
 import pathlib
 import sys
-import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SKIPPED = 77
-STUBS = tempfile.TemporaryDirectory()
 
 
 def parser(text):
@@ -19,13 +17,11 @@ def parser(text):
 
 
 def prepare(made):
-    """The arguments. Afterwards the modules of the tests of processes and of the examples can be
-    imported, which read the environment, and those of the interface."""
+    """The arguments. Afterwards the modules of the tests of processes, which read the environment,
+    can be imported."""
     arguments = made.parse_args()
     os.environ["BCCSKEL_SERVER"] = str(arguments.build / "server/bccskel-server")
     os.environ.setdefault("PROTOC", "protoc")
     os.environ.setdefault("GRPC_PYTHON_PLUGIN", "/usr/bin/grpc_python_plugin")
-    sys.path[:0] = [str(ROOT / "tests/server/process"), str(ROOT / "client/examples")]
-    import server_process
-    server_process.generate_stubs(STUBS.name)
+    sys.path.insert(0, str(ROOT / "tests/server/process"))
     return arguments

@@ -10,20 +10,15 @@ import unittest
 import grpc
 import yaml
 
-from durable_case import Code, DurableTest, durable, jobs, volume
-from server_process import SOURCE, ServerProcess, metrics, run_to_end
+from durable_case import DurableTest, volume
+from interface import Code, durable, jobs, jobs_grpc, shell_width
+from server_process import SOURCE, ServerProcess, health, metrics, run_to_end
 
 
 def flip_a_bit(path, offset):
     data = bytearray(path.read_bytes())
     data[offset] ^= 4
     path.write_bytes(data)
-
-
-def health(channel, service):
-    """1 for SERVING, 2 for NOT_SERVING."""
-    request = b"\x0a" + bytes([len(service)]) + service.encode()
-    return channel.unary_unary("/grpc.health.v1.Health/Check")(request, timeout=60)[1]
 
 
 class DamageTest(DurableTest):
@@ -85,7 +80,7 @@ class DamageTest(DurableTest):
                 return  # it does not start: that is no wrong answer
             with grpc.insecure_channel(server.address) as channel:
                 try:
-                    stub = durable.jobs_grpc.JobServiceStub(channel)
+                    stub = jobs_grpc.JobServiceStub(channel)
                     self.assertEqual(stub.GetJob(jobs.GetJobRequest(job=job)).job, expected, at)
                 except grpc.RpcError as error:
                     self.assertEqual(error.code(), Code.DATA_LOSS, at)
@@ -98,7 +93,7 @@ class DamageTest(DurableTest):
         (self.data / "jobs.db").rename(self.data / "moved")
         for service in durable_services:
             self.wait_for_health(service, 2)
-        self.assertEqual(health(self.channel, ""), 1)
+        self.assertEqual(health(self.channel), 1)
         self.assertEqual(health(self.channel, "bccskel.v1.SkeletonizationService"), 1)
         self.fails(Code.DATA_LOSS, "STORED_DATA_DAMAGED", lambda: self.create(name))
         (self.data / "moved").rename(self.data / "jobs.db")
@@ -129,7 +124,7 @@ class AlertTest(DurableTest):
                    lambda: durable.read_skeleton(self.channel, done))
         blob, = self.data.rglob("blobs/*")
         flip_a_bit(blob, 20)
-        lost = self.create(name, options={"shell_width": 2}).name
+        lost = self.create(name, options=shell_width(2)).name
         self.assertEqual(self.finish(lost)[-1], jobs.JOB_STATE_FAILED)
         after = metrics(page)
         rose = {series for series in after if float(after[series]) > float(before.get(series, 0))}

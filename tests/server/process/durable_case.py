@@ -3,25 +3,14 @@
 import functools
 import pathlib
 import signal
-import sys
 import tempfile
-import unittest
 
 import grpc
 import numpy as np
 
 import server_process
-from server_process import SOURCE, ServerProcess
-
-STUBS = tempfile.TemporaryDirectory()
-server_process.generate_stubs(STUBS.name)
-sys.path.insert(0, str(SOURCE / "client/examples"))
-import durable  # noqa: E402  (the stubs made it possible)
-import skeletonize as example  # noqa: E402
-
-jobs, volumes, volume_pb2 = durable.jobs, durable.volumes, durable.volume_pb2
-service, service_grpc = example.service, example.service_grpc
-Code = grpc.StatusCode
+from interface import CallTest, durable, example, jobs, service, volume_pb2, volumes
+from server_process import ServerProcess
 
 
 def volume(radius=24.0, tube=8.0):
@@ -29,22 +18,32 @@ def volume(radius=24.0, tube=8.0):
     return example.declare(example.torus(radius, tube), 1.0, (0, 0, 0), np.eye(3))
 
 
-LARGE = (200.0, 60.0)
 durable.CHUNK_BYTES = 1 << 17
 
 
 @functools.cache
 def large_volume():
     """More than a small job: its one-call job is durable."""
-    return volume(*LARGE)
+    return volume(200.0, 60.0)
+
+
+def upload_requests(upload, declaration, data, begin=0, finish=False):
+    """Of an upload: config, the bytes from `begin` on, and finish if wanted."""
+    yield volumes.UploadVolumeRequest(config=volumes.UploadVolumeConfig(
+        upload=upload, volume=declaration))
+    for at in range(begin, len(data), durable.CHUNK_BYTES):
+        yield volumes.UploadVolumeRequest(chunk=volume_pb2.VolumeChunk(
+            offset=at, data=data[at:at + durable.CHUNK_BYTES]))
+    if finish:
+        yield volumes.UploadVolumeRequest(finish=volume_pb2.VolumeFinish(size_bytes=len(data)))
 
 
 def large_requests():
     declaration, data = large_volume()
     yield service.SkeletonizeRequest(config=service.SkeletonizeConfig(volume=declaration))
-    yield from (service.SkeletonizeRequest(chunk=volume_pb2.VolumeChunk(
-        offset=at, data=data[at:at + durable.CHUNK_BYTES]))
-        for at in range(0, len(data), durable.CHUNK_BYTES))
+    for at in range(0, len(data), durable.CHUNK_BYTES):
+        yield service.SkeletonizeRequest(chunk=volume_pb2.VolumeChunk(
+            offset=at, data=data[at:at + durable.CHUNK_BYTES]))
     yield service.SkeletonizeRequest(finish=volume_pb2.VolumeFinish(size_bytes=len(data)))
 
 
@@ -73,7 +72,7 @@ class JobCalls:
                 if event.HasField("state_change")]
 
 
-class DurableTest(JobCalls, unittest.TestCase):
+class DurableTest(JobCalls, CallTest):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
@@ -88,13 +87,6 @@ class DurableTest(JobCalls, unittest.TestCase):
 
     def kill(self, server):
         server.stop(signal.SIGKILL)
-
-    def fails(self, code, reason, call):
-        with self.assertRaises(grpc.RpcError) as raised:
-            call()
-        self.assertEqual((raised.exception.code(), example.error_reason(raised.exception)),
-                         (code, reason), raised.exception.details())
-        return raised.exception
 
     def files(self):
         return {path for path in self.data.rglob("*") if path.is_file()}

@@ -2,11 +2,7 @@
 
 import hashlib
 import json
-import os
 import signal
-import subprocess
-import sys
-import threading
 import time
 import unittest
 
@@ -14,18 +10,18 @@ import grpc
 import numpy as np
 
 import server_process
-from durable_case import (STUBS, Code, DurableTest, durable, example, jobs, large_requests,
-                          large_volume, service, service_grpc, volume, volume_pb2, volumes)
-from server_process import SOURCE, ServerProcess
-
-from bccskel.v1 import rpc_details_pb2  # the stubs of durable_case made it possible
+from durable_case import DurableTest, large_requests, large_volume, upload_requests, volume
+from interface import (EXAMPLES, Code, HeldBack, details, durable, example, jobs, jobs_grpc,
+                       options_pb2, run_python, service, service_grpc, shell_width, volume_pb2,
+                       volumes)
+from server_process import ServerProcess
 
 
 def fault_of(status):
     """The ErrorInfo of a stored error."""
     for detail in status.details:
         if detail.type_url.endswith("ErrorInfo"):
-            return rpc_details_pb2.ErrorInfo.FromString(detail.value)
+            return details.ErrorInfo.FromString(detail.value)
     return None
 
 
@@ -96,9 +92,8 @@ class JobTest(DurableTest):
     def test_a_job_that_has_not_succeeded_has_nothing_to_read(self):
         self.start()
         name = durable.send_volume(self.channel, *large_volume())
-        options = example.service.SkeletonizeConfig().options.__class__
         for shell in range(1, 20):  # one thread computes them all before the last one
-            job = self.create(name, options=options(shell_width=1 + shell / 10)).name
+            job = self.create(name, options=shell_width(1 + shell / 10)).name
         self.fails(Code.FAILED_PRECONDITION, "JOB_NOT_SUCCEEDED",
                    lambda: list(self.jobs.ReadSkeleton(jobs.ReadSkeletonRequest(job=job))))
         ended = self.jobs.CancelJob(jobs.CancelJobRequest(job=job)).job
@@ -136,7 +131,7 @@ class JobTest(DurableTest):
 
     def test_without_a_data_directory_the_calls_name_the_flag(self):
         with ServerProcess() as server, grpc.insecure_channel(server.address) as channel:
-            stub = durable.jobs_grpc.JobServiceStub(channel)
+            stub = jobs_grpc.JobServiceStub(channel)
             error = self.fails(Code.FAILED_PRECONDITION, "NOT_DURABLE",
                                lambda: stub.GetJob(jobs.GetJobRequest(job="jobs/1")))
             self.assertIn("--data-dir", error.details())
@@ -216,14 +211,8 @@ class UploadTest(DurableTest):
     def test_a_newer_stream_takes_an_upload_over(self):
         self.start()
         declaration, data = volume(60.0, 20.0)
-        go_on = threading.Event()
-
-        def slowly():
-            yield self.config(declaration)
-            yield self.chunk(data, 0, 1000)
-            go_on.wait(server_process.TIMEOUT_S)
-
-        first = self.volumes.UploadVolume.future(slowly())
+        requests = HeldBack([self.config(declaration), self.chunk(data, 0, 1000)], first=2)
+        first = self.volumes.UploadVolume.future(iter(requests))
         while True:  # the test's time limit ends it
             try:
                 if self.status().committed_size == 1000:
@@ -233,7 +222,7 @@ class UploadTest(DurableTest):
         name = durable.send_volume(self.channel, declaration, data, "uploads/a")
         self.assertTrue(name)
         self.assertEqual(first.exception().code(), Code.ABORTED)
-        go_on.set()
+        requests.let_go()
 
     def test_a_message_of_5_mib_is_refused(self):
         self.start()
@@ -246,9 +235,7 @@ class UploadTest(DurableTest):
     def test_after_a_kill_of_the_sender_at_most_one_chunk_is_sent_again(self):
         server = self.start()
         declaration, data = large_volume()
-        sender = subprocess.run([sys.executable, "-c", KILLED_SENDER, server.address, STUBS.name,
-                                 SOURCE / "client/examples"], check=False,
-                                timeout=server_process.TIMEOUT_S)
+        sender = run_python("-c", KILLED_SENDER, server.address)
         self.assertEqual(sender.returncode, -signal.SIGKILL)
         # What it had handed over arrives although it is gone.
         sent, committed = 3 * durable.CHUNK_BYTES, -1
@@ -264,7 +251,6 @@ class UploadTest(DurableTest):
 KILLED_SENDER = """
 import os, signal, sys, time
 import grpc
-sys.path[:0] = [sys.argv[2], sys.argv[3]]
 import durable, numpy
 from skeletonize import declare, torus
 channel = grpc.insecure_channel(sys.argv[1])
@@ -287,12 +273,7 @@ class CrashTest(DurableTest):
         server = self.start()
         declaration, data = large_volume()
         half = len(data) // 2
-        self.volumes.UploadVolume(iter([
-            volumes.UploadVolumeRequest(config=volumes.UploadVolumeConfig(
-                upload="uploads/a", volume=declaration)),
-            *(volumes.UploadVolumeRequest(chunk=volume_pb2.VolumeChunk(
-                offset=at, data=data[at:min(half, at + durable.CHUNK_BYTES)]))
-              for at in range(0, half, durable.CHUNK_BYTES))]))
+        self.volumes.UploadVolume(upload_requests("uploads/a", declaration, data[:half]))
         self.kill(server)
         self.start()
         self.assertEqual(durable.committed_size(self.volumes, "uploads/a"), half)
@@ -305,9 +286,8 @@ class CrashTest(DurableTest):
         for round_number in range(3):
             for n in range(5):
                 request = f"{round_number}-{n}"
-                made[request] = self.create(name, request, options=example.service
-                                            .SkeletonizeConfig().options.__class__(
-                                                last_shell=1 + len(made))).name
+                made[request] = self.create(name, request, options=options_pb2.SkeletonizeOptions(
+                    last_shell=1 + len(made))).name
             self.kill(server)
             server = self.start()
         for request, job in made.items():
@@ -351,18 +331,14 @@ class CrashTest(DurableTest):
     def test_one_call_that_breaks_is_gone_on_with(self):
         server = self.start()
         declaration, data = large_volume()
-        go_on = threading.Event()
-
-        def half():
-            yield service.SkeletonizeRequest(config=service.SkeletonizeConfig(volume=declaration))
-            yield service.SkeletonizeRequest(chunk=volume_pb2.VolumeChunk(data=data[:100_000]))
-            go_on.wait(server_process.TIMEOUT_S)
-
-        replies = service_grpc.SkeletonizationServiceStub(self.channel).Skeletonize(half())
+        half = HeldBack([
+            service.SkeletonizeRequest(config=service.SkeletonizeConfig(volume=declaration)),
+            service.SkeletonizeRequest(chunk=volume_pb2.VolumeChunk(data=data[:100_000]))], first=2)
+        replies = service_grpc.SkeletonizationServiceStub(self.channel).Skeletonize(iter(half))
         accepted = next(replies).accepted
         self.assertTrue(accepted.durable)
         self.kill(server)
-        go_on.set()
+        half.let_go()
         self.start()
         self.assertEqual(self.get(accepted.job).state, jobs.JOB_STATE_RECEIVING)
         durable.send_volume(self.channel, declaration, data, accepted.upload)
@@ -409,18 +385,13 @@ class OneCallTest(DurableTest):
         declaration, data = large_volume()
         for policy, state in ((service.DISCONNECT_POLICY_CANCEL, jobs.JOB_STATE_CANCELLED),
                               (service.DISCONNECT_POLICY_CONTINUE, jobs.JOB_STATE_SUCCEEDED)):
-            go_on = threading.Event()
-
-            def config_only():
-                config = service.SkeletonizeConfig(volume=declaration, on_disconnect=policy)
-                yield service.SkeletonizeRequest(config=config)
-                go_on.wait(server_process.TIMEOUT_S)
-
+            config_only = HeldBack([service.SkeletonizeRequest(config=service.SkeletonizeConfig(
+                volume=declaration, on_disconnect=policy))])
             replies = service_grpc.SkeletonizationServiceStub(self.channel).Skeletonize(
-                config_only())
+                iter(config_only))
             accepted = next(replies).accepted
             replies.cancel()
-            go_on.set()
+            config_only.let_go()
             if policy == service.DISCONNECT_POLICY_CONTINUE:
                 durable.send_volume(self.channel, declaration, data, accepted.upload)
             self.assertEqual(self.finish(accepted.job)[-1], state)
@@ -432,17 +403,11 @@ class OneCallTest(DurableTest):
                 lambda it: self.volumes.DeleteUpload(
                     volumes.DeleteUploadRequest(upload=it.upload)))
         for end in ends:
-            go_on = threading.Event()
-
-            def requests():
-                all_of_them = large_requests()
-                yield next(all_of_them)
-                go_on.wait(server_process.TIMEOUT_S)
-                yield from all_of_them
-
-            replies = service_grpc.SkeletonizationServiceStub(self.channel).Skeletonize(requests())
+            requests = HeldBack(large_requests())
+            replies = service_grpc.SkeletonizationServiceStub(self.channel).Skeletonize(
+                iter(requests))
             end(next(replies).accepted)
-            go_on.set()
+            requests.let_go()
             self.fails(Code.CANCELLED, "CANCELLED", lambda: list(replies))
 
     def test_a_cancelled_job_says_so(self):
@@ -463,10 +428,10 @@ class ExampleTest(DurableTest):
         class Cancelled(grpc.RpcError):
             def __init__(self, reason=None):
                 super().__init__()
-                info = rpc_details_pb2.ErrorInfo(reason=reason)
+                info = details.ErrorInfo(reason=reason)
                 detail = {"type_url": "type.googleapis.com/google.rpc.ErrorInfo",
                           "value": info.SerializeToString()}
-                status = rpc_details_pb2.Status(details=[detail] if reason else [])
+                status = details.Status(details=[detail] if reason else [])
                 self.trailing_metadata = lambda: (("grpc-status-details-bin",
                                                    status.SerializeToString()),)
                 self.code = lambda: Code.CANCELLED
@@ -487,10 +452,7 @@ class ExampleTest(DurableTest):
 
     def test_the_example_runs_as_its_text_says(self):
         server = self.start()
-        done = subprocess.run(
-            [sys.executable, SOURCE / "client/examples/durable.py", "--server", server.address],
-            env={**os.environ, "PYTHONPATH": STUBS.name}, capture_output=True, text=True,
-            timeout=server_process.TIMEOUT_S, check=False)
+        done = run_python(EXAMPLES / "durable.py", "--server", server.address)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertIn("JOB_STATE_SUCCEEDED", done.stdout)
         self.assertTrue(done.stdout.endswith(" 1 loops\n"), done.stdout)

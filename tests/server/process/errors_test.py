@@ -3,10 +3,8 @@
 import unittest
 
 import server_process
-from durable_case import Code, DurableTest, durable, jobs, volume, volume_pb2, volumes
-
-# The stubs of durable_case made this possible.
-from bccskel.v1 import rpc_details_pb2 as details
+from durable_case import DurableTest, volume
+from interface import Code, details, durable, jobs, services, volume_pb2, volumes
 
 
 def field_of(error):
@@ -40,7 +38,7 @@ class ErrorsTest(DurableTest):
     def test_bytes_that_are_no_message_are_told_as_such_by_every_method_that_reads_one(self):
         wrong = b"\x0a\xff"  # a field that is longer than what comes
         called = 0
-        for descriptor in server_process.services():
+        for descriptor in services():
             for method in descriptor.methods:
                 if method.client_streaming:
                     continue
@@ -105,6 +103,7 @@ class ErrorsTest(DurableTest):
         self.assertFalse(checked.HasField("create_time"))
         made = self.create(self.name)
         self.assertEqual(made.create_time, self.get(made.name).create_time)
+
 
 if __name__ == "__main__":
     unittest.main()

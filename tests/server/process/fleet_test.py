@@ -12,8 +12,9 @@ import grpc
 
 import postgres_process
 import server_process
-from durable_case import (Code, JobCalls, durable, example, jobs, large_requests, large_volume,
-                          service, service_grpc, volume, volume_pb2, volumes)
+from durable_case import JobCalls, large_requests, large_volume, upload_requests, volume
+from interface import (CallTest, Code, durable, example, jobs, service_grpc, shell_width,
+                       torus_loops, volumes)
 from server_process import ServerProcess
 
 # A few seconds of one thread, so that a server can be ended meanwhile.
@@ -42,13 +43,8 @@ class Server(JobCalls):
         return self.process.log_text().count(text)
 
 
-def width(number):
-    """Options with which jobs of one volume differ."""
-    return service.SkeletonizeConfig(options={"shell_width": 1 + number / 64}).options
-
-
 @unittest.skipUnless(postgres_process.programs(), "PostgreSQL (package postgresql) is not installed")
-class FleetTest(unittest.TestCase):
+class FleetTest(CallTest):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
@@ -65,12 +61,6 @@ class FleetTest(unittest.TestCase):
         with concurrent.futures.ThreadPoolExecutor(number) as pool:
             processes = list(pool.map(lambda _: self.process(*flags), range(number)))
         return [Server(self, process) for process in processes]
-
-    def fails(self, code, reason, call):
-        with self.assertRaises(grpc.RpcError) as raised:
-            call()
-        self.assertEqual((raised.exception.code(), example.error_reason(raised.exception)),
-                         (code, reason), raised.exception.details())
 
     def owner_of(self, job):
         return self.postgres.ask(f"SELECT owner FROM jobs WHERE name = '{job}'")
@@ -156,7 +146,7 @@ class AnyServerTest(FleetTest):
     def test_servers_share_what_waits(self):
         servers = self.start(3)
         name = servers[0].send(*large_volume())
-        made = [servers[0].create(name, options=width(n)).name for n in range(12)]
+        made = [servers[0].create(name, options=shell_width(1 + n / 64)).name for n in range(12)]
         owners = set()
         while not all(servers[1].get(job).state == jobs.JOB_STATE_SUCCEEDED for job in made):
             owners |= {*self.postgres.ask("SELECT owner FROM jobs WHERE state = 2").split()}
@@ -169,26 +159,20 @@ class UploadTest(FleetTest):
         declaration, data = large_volume()
         half = len(data) // 2
 
-        def requests(begin, end, finish):
-            yield volumes.UploadVolumeRequest(config=volumes.UploadVolumeConfig(
-                upload="uploads/mine", volume=declaration))
-            for at in range(begin, end, durable.CHUNK_BYTES):
-                yield volumes.UploadVolumeRequest(chunk=volume_pb2.VolumeChunk(
-                    offset=at, data=data[at:min(end, at + durable.CHUNK_BYTES)]))
-            if finish:
-                yield volumes.UploadVolumeRequest(
-                    finish=volume_pb2.VolumeFinish(size_bytes=len(data)))
+        def send(server, begin, end):
+            server.volumes.UploadVolume(upload_requests(
+                "uploads/mine", declaration, data[:end], begin, finish=end == len(data)))
 
         def committed(server):
             return server.volumes.GetUploadStatus(volumes.GetUploadStatusRequest(
                 upload="uploads/mine")).upload.committed_size
 
-        first.volumes.UploadVolume(requests(0, half, False))
+        send(first, 0, half)
         self.assertEqual((committed(first), committed(second)), (half, half))
         third = half + len(data) // 4
-        second.volumes.UploadVolume(requests(half, third, False))
+        send(second, half, third)
         self.assertEqual((committed(first), committed(second)), (third, third))
-        first.volumes.UploadVolume(requests(third, len(data), True))
+        send(first, third, len(data))
         upload = second.volumes.GetUploadStatus(volumes.GetUploadStatusRequest(
             upload="uploads/mine")).upload
         self.assertTrue(upload.volume)
@@ -202,9 +186,7 @@ class UploadTest(FleetTest):
         first.send(declaration, data)
         declaration.placement.origin[0] += 1  # another volume
         self.addCleanup(lambda: declaration.placement.origin.__setitem__(0, 0))
-        with self.assertRaises(grpc.RpcError) as raised:
-            second.send(declaration, data)
-        self.assertEqual(example.error_reason(raised.exception), "DISK_FULL")
+        self.fails(Code.RESOURCE_EXHAUSTED, "DISK_FULL", lambda: second.send(declaration, data))
 
 
 class LossTest(FleetTest):
@@ -249,11 +231,10 @@ class LossTest(FleetTest):
     def test_the_database_may_be_away(self):
         first, second = self.start()
         name = first.send(*large_volume())
-        made = [first.create(name, f"request-{n}", options=width(n)).name for n in range(6)]
+        made = [first.create(name, f"request-{n}", options=shell_width(1 + n / 64)).name for n in range(6)]
         self.postgres.stop()
         self.fails(Code.UNAVAILABLE, "UNAVAILABLE", lambda: second.create(name, "later"))
-        skeleton = example.skeletonize(second.channel, example.torus())  # nothing durable
-        self.assertTrue(skeleton.summary.sha256)
+        self.assertEqual(torus_loops(second.channel), 1)  # nothing durable
         self.postgres.start()
         while True:
             try:
@@ -263,7 +244,7 @@ class LossTest(FleetTest):
                 self.assertEqual(error.code(), Code.UNAVAILABLE)
         for job in [*made, later]:
             self.assertEqual(second.finish(job)[-1], jobs.JOB_STATE_SUCCEEDED)
-        self.assertEqual([first.create(name, f"request-{n}", options=width(n)).name
+        self.assertEqual([first.create(name, f"request-{n}", options=shell_width(1 + n / 64)).name
                           for n in range(6)], made)
         self.assertEqual(first.warnings("silent") + second.warnings("silent"), 0)
 

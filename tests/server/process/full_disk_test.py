@@ -10,8 +10,8 @@ import unittest
 
 import grpc
 
-from durable_case import (Code, DurableTest, durable, example, jobs, large_volume, service, volume,
-                          volume_pb2, volumes)
+from durable_case import DurableTest, large_volume, upload_requests, volume
+from interface import Code, durable, example, jobs, shell_width, torus_loops, volumes
 
 KIB = 1 << 10
 UNLIMITED = (resource.RLIM_INFINITY, resource.RLIM_INFINITY)
@@ -24,9 +24,9 @@ class FullTablesTest(DurableTest):
         """Makes jobs until one is refused: those that were confirmed, and the refusal."""
         made = []
         while len(made) < 10_000:
-            options = service.SkeletonizeConfig(options={"shell_width": 1 + len(made) / 1e4}).options
             try:
-                made.append(self.create(name, f"job-{len(made)}", options=options).name)
+                made.append(self.create(name, f"job-{len(made)}",
+                                        options=shell_width(1 + len(made) / 1e4)).name)
             except grpc.RpcError as error:
                 return made, error
         return self.fail("the tables were never full")
@@ -44,8 +44,7 @@ class FullTablesTest(DurableTest):
         print(f"{len(made)} jobs were confirmed before the tables were full")
         # It goes on: with what it knows, and with what needs no disk.
         self.assertEqual(self.get(made[-1]).name, made[-1])
-        self.assertEqual(example.skeletonize(self.channel, example.torus())
-                         .summary.certificate.skeleton.loops, 1)
+        self.assertEqual(torus_loops(self.channel), 1)
         resource.prlimit(server.process.pid, resource.RLIMIT_FSIZE, UNLIMITED)
         for job in made:
             self.assertEqual(self.finish(job)[-1], jobs.JOB_STATE_SUCCEEDED)
@@ -78,13 +77,6 @@ class SmallDiskTest(DurableTest):
         self.addCleanup(subprocess.run, ["umount", "--lazy", disk], check=True)
         self.data = self.data.__class__(disk) / "data"
 
-    def chunks(self, upload, declaration, size):
-        yield volumes.UploadVolumeRequest(config=volumes.UploadVolumeConfig(
-            upload=upload, volume=declaration))
-        for at in range(0, size, durable.CHUNK_BYTES):
-            yield volumes.UploadVolumeRequest(chunk=volume_pb2.VolumeChunk(
-                offset=at, data=bytes(durable.CHUNK_BYTES)))
-
     def test_an_upload_that_does_not_fit_is_refused_and_the_others_go_on(self):
         self.start()
         name = durable.send_volume(self.channel, *volume())
@@ -95,18 +87,15 @@ class SmallDiskTest(DurableTest):
         declaration.extent.nx = declaration.extent.ny = 1024
         declaration.size_bytes = 2 * 1024 * 1024 * 4 * ((declaration.extent.nz + 31) // 32)
         error = self.fails(Code.RESOURCE_EXHAUSTED, "DISK_FULL", lambda: self.volumes.UploadVolume(
-            self.chunks("uploads/large", declaration, declaration.size_bytes)))
+            upload_requests("uploads/large", declaration, bytes(declaration.size_bytes))))
         committed = durable.committed_size(self.volumes, "uploads/large")
         print(f"{committed} bytes of {declaration.size_bytes} fitted: {error.details()}")
-        self.assertEqual(example.skeletonize(self.channel, example.torus())
-                         .summary.certificate.skeleton.loops, 1)
+        self.assertEqual(torus_loops(self.channel), 1)
         # What makes room works without room.
         self.volumes.DeleteUpload(volumes.DeleteUploadRequest(upload="uploads/large"))
-        again = self.create(name, "second", options=service.SkeletonizeConfig(
-            options={"shell_width": 2}).options).name
+        again = self.create(name, "second", options=shell_width(2)).name
         self.assertEqual(self.finish(again)[-1], jobs.JOB_STATE_SUCCEEDED)
         self.assertTrue(durable.read_skeleton(self.channel, first).summary.sha256)
-
 
     def fill_the_disk(self):
         """To the last byte, by somebody else."""
@@ -122,8 +111,8 @@ class SmallDiskTest(DurableTest):
     def test_on_a_disk_without_a_byte_left_jobs_end_and_everything_can_be_deleted(self):
         self.start()
         name = durable.send_volume(self.channel, *volume())
-        made = [self.create(name, f"job-{n}", options=service.SkeletonizeConfig(
-            options={"shell_width": 1 + n / 10}).options).name for n in range(10)]
+        made = [self.create(name, f"job-{n}", options=shell_width(1 + n / 10)).name
+                for n in range(10)]
         for job in made:
             self.assertEqual(self.finish(job)[-1], jobs.JOB_STATE_SUCCEEDED)
         self.fill_the_disk()
@@ -141,8 +130,7 @@ class SmallDiskTest(DurableTest):
     def test_a_job_that_runs_while_the_disk_fills_ends(self):
         self.start()
         name = durable.send_volume(self.channel, *large_volume())
-        made = [self.create(name, options=service.SkeletonizeConfig(
-            options={"shell_width": 1 + n / 10}).options).name for n in range(3)]
+        made = [self.create(name, options=shell_width(1 + n / 10)).name for n in range(3)]
         self.fill_the_disk()
         for job in made:
             self.assertIn(self.finish(job)[-1], (jobs.JOB_STATE_SUCCEEDED, jobs.JOB_STATE_FAILED))

@@ -1,6 +1,5 @@
 """Calls and jobs that are ended in a chosen stage by their caller or their deadline, and how long it
-takes until the server has their place, memory and threads again. Needs the stubs and the examples
-(server_process.py)."""
+takes until the server has their place, memory and threads again."""
 
 import dataclasses
 import threading
@@ -8,12 +7,8 @@ import time
 
 import grpc
 
-import durable
-import skeletonize as example
-from bccskel.v1 import admin_service_pb2 as admin
-from bccskel.v1 import admin_service_pb2_grpc as admin_grpc
+from interface import admin, admin_grpc, connect, durable, jobs, jobs_grpc, service_grpc
 
-jobs = durable.jobs
 POLL_S, PATIENCE_S = 0.001, 120
 
 
@@ -21,7 +16,7 @@ class Status:
     """What the server is at, asked on a connection of its own."""
 
     def __init__(self, address):
-        self.channel = grpc.insecure_channel(address, [("grpc.use_local_subchannel_pool", 1)])
+        self.channel = connect(address)
         self.ask = admin_grpc.AdminServiceStub(self.channel).GetServerStatus
 
     def __enter__(self):
@@ -57,7 +52,7 @@ class Call:
     def __init__(self, channel, requests, timeout=PATIENCE_S, stops=False):
         self.requests, self.stops, self.over = requests, stops, threading.Event()
         self.begun = time.monotonic()
-        self.replies = example.service_grpc.SkeletonizationServiceStub(channel).Skeletonize(
+        self.replies = service_grpc.SkeletonizationServiceStub(channel).Skeletonize(
             self.send(), timeout=timeout)
         self.replies.add_done_callback(lambda _: self.over.set())
         self.cancel = self.replies.cancel
@@ -88,7 +83,7 @@ class StoredJob:
     """A job on the server's disk, made when constructed."""
 
     def __init__(self, channel, volume, options):
-        self.stub, self.channel = durable.jobs_grpc.JobServiceStub(channel), channel
+        self.stub, self.channel = jobs_grpc.JobServiceStub(channel), channel
         self.begun = time.monotonic()
         self.name = durable.create_job(channel, volume, options=options)
 

@@ -6,14 +6,16 @@ import unittest
 
 import grpc
 
-from durable_case import DurableTest, durable, example, jobs, service_grpc, volume, volumes
-from server_process import run_to_end
+from durable_case import DurableTest, volume
+from interface import (bearer, durable, example, jobs, jobs_grpc, service_grpc, volume_pb2, volumes,
+                       volumes_grpc)
+from server_process import new_token
 
 
 class WithToken(grpc.UnaryUnaryClientInterceptor, grpc.UnaryStreamClientInterceptor,
                 grpc.StreamUnaryClientInterceptor, grpc.StreamStreamClientInterceptor):
     def __init__(self, token):
-        self.metadata = (("authorization", f"Bearer {token}"),)
+        self.metadata = bearer(token)
 
     def with_token(self, continuation, details, request):
         return continuation(details._replace(metadata=self.metadata), request)
@@ -25,8 +27,8 @@ class WithToken(grpc.UnaryUnaryClientInterceptor, grpc.UnaryStreamClientIntercep
 class Tenant:
     def __init__(self, server, token):
         self.channel = grpc.intercept_channel(grpc.insecure_channel(server.address), WithToken(token))
-        self.volumes = durable.volumes_grpc.VolumeServiceStub(self.channel)
-        self.jobs = durable.jobs_grpc.JobServiceStub(self.channel)
+        self.volumes = volumes_grpc.VolumeServiceStub(self.channel)
+        self.jobs = jobs_grpc.JobServiceStub(self.channel)
 
     def make_job(self, volume, request_id=""):
         """Its name, once it has ended."""
@@ -42,8 +44,7 @@ class Tenant:
 class IsolationTest(DurableTest):
     def setUp(self):
         super().setUp()
-        tokens = [run_to_end("--new-token", tenant).stdout.splitlines()
-                  for tenant in ("acme", "lab")]
+        tokens = [new_token(tenant) for tenant in ("acme", "lab")]
         file = tempfile.NamedTemporaryFile("w")
         self.addCleanup(file.close)
         file.write("".join(line + "\n" for _, line in tokens))
@@ -60,7 +61,7 @@ class IsolationTest(DurableTest):
             upload=upload, volume=self.declaration))
 
     def chunk(self, size):
-        return volumes.UploadVolumeRequest(chunk=durable.volume_pb2.VolumeChunk(
+        return volumes.UploadVolumeRequest(chunk=volume_pb2.VolumeChunk(
             data=self.data[:size]))
 
     def missing(self, data):

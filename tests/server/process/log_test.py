@@ -9,8 +9,8 @@ import unittest
 import grpc
 
 import server_process
-from durable_case import (Code, DurableTest, durable, example, jobs, large_requests, large_volume,
-                          service_grpc, volume, volumes)
+from durable_case import DurableTest, large_requests, large_volume, volume
+from interface import Code, durable, jobs, service_grpc, torus_loops, volume_pb2, volumes
 
 TRACE = "00-0af7651916cd43dd8448eb211c80319c-b7ad6b7169203331-01"
 TRACED = (("traceparent", TRACE),)
@@ -45,7 +45,7 @@ class JobLogTest(DurableTest):
     def test_a_failed_job_says_why(self):
         server = self.start()
         declaration, data = volume()
-        declaration.encoding = durable.volume_pb2.VOLUME_ENCODING_OPENEXR
+        declaration.encoding = volume_pb2.VOLUME_ENCODING_OPENEXR
         job = self.create_traced(durable.send_volume(self.channel, declaration, data)).name
         self.finish(job)
         self.assertEqual(server.stop(), 0)
@@ -149,8 +149,7 @@ class UnreadLogTest(unittest.TestCase):
                 with self.assertRaises(grpc.RpcError) as raised:
                     get(b"\x0a\x01\xff", timeout=server_process.TIMEOUT_S)  # a name that is not UTF-8
                 self.assertNotEqual(raised.exception.code(), Code.DEADLINE_EXCEEDED)
-            self.assertEqual(example.skeletonize(channel, example.torus())
-                             .summary.certificate.skeleton.loops, 1)
+            self.assertEqual(torus_loops(channel), 1)
         self.assertGreater(float(server_process.metrics(page)["bccskel_log_lines_dropped_total"]), 0)
         process.terminate()
         self.assertEqual(process.wait(server_process.TIMEOUT_S), 0)

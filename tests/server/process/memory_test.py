@@ -7,11 +7,9 @@ import unittest
 import grpc
 import numpy as np
 
-import server_process
-from durable_case import DurableTest, durable, example, jobs
+from durable_case import DurableTest
+from interface import durable, example, jobs, labels_example
 from server_process import ServerProcess
-
-labels_example = server_process.example("skeletonize_labels")
 
 LIMIT = 500_000_000
 MARGIN = 64 << 20

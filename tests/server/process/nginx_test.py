@@ -10,18 +10,14 @@ import grpc
 import numpy as np
 
 import nginx_process
-import server_process
 from certificates import Authority
+from interface import CallTest, Code, example, services, torus_loops
 from nginx_process import nginx_in_front
 from server_process import ServerProcess
 
-STUBS = tempfile.TemporaryDirectory()
-server_process.generate_stubs(STUBS.name)
-example = server_process.example()
-
 
 @unittest.skipIf(nginx_process.NGINX is None, "nginx is not installed")
-class NginxTest(unittest.TestCase):
+class NginxTest(CallTest):
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
         self.addCleanup(self.folder.cleanup)
@@ -52,8 +48,7 @@ class NginxTest(unittest.TestCase):
         credentials = grpc.ssl_channel_credentials(authority.certificate_bytes())
         with (ServerProcess(listen=f"unix:{self.socket}"),
               grpc.secure_channel(front, credentials) as channel):
-            skeleton = example.skeletonize(channel, example.torus())
-        self.assertEqual(skeleton.summary.certificate.skeleton.loops, 1)
+            self.assertEqual(torus_loops(channel), 1)
 
     def test_a_volume_of_megabytes_passes(self):
         """nginx by itself stops at 1 MiB."""
@@ -67,17 +62,12 @@ class NginxTest(unittest.TestCase):
     def test_an_error_keeps_its_code_and_details(self):
         front = self.front()
         with ServerProcess("--max-volume-bytes", "1000", listen=f"unix:{self.socket}"):
-            with self.assertRaises(grpc.RpcError) as caught:
-                example.skeletonize(self.channel(front), example.torus())
-        self.assertEqual(caught.exception.code(), grpc.StatusCode.RESOURCE_EXHAUSTED)
-        self.assertIn("limit is 1000", caught.exception.details())
-        trailers = dict(caught.exception.trailing_metadata())
-        self.assertIn(b"VOLUME_TOO_LARGE", trailers["grpc-status-details-bin"])
+            error = self.fails(Code.RESOURCE_EXHAUSTED, "VOLUME_TOO_LARGE",
+                               lambda: torus_loops(self.channel(front)))
+        self.assertIn("limit is 1000", error.details())
 
     def test_without_a_server_callers_hear_that_they_may_try_again(self):
-        with self.assertRaises(grpc.RpcError) as caught:
-            example.skeletonize(self.channel(self.front()), example.torus())
-        self.assertEqual(caught.exception.code(), grpc.StatusCode.UNAVAILABLE)
+        self.fails(Code.UNAVAILABLE, None, lambda: torus_loops(self.channel(self.front())))
 
     def test_other_services_stay_inside(self):
         front = self.front()
@@ -85,10 +75,9 @@ class NginxTest(unittest.TestCase):
             channel = self.channel(front)
             for method in ("/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo",
                            "/bccskel.v1.AdminService/GetServerStatus"):
-                with self.assertRaises(grpc.RpcError) as caught:
-                    channel.unary_unary(method)(b"", timeout=60)
-                self.assertEqual(caught.exception.code(), grpc.StatusCode.UNIMPLEMENTED, method)
-            for service in server_process.services():
+                self.fails(Code.UNIMPLEMENTED, None,
+                           lambda: channel.unary_unary(method)(b"", timeout=60))
+            for service in services():
                 if service.name == "AdminService":
                     continue
                 unknown = channel.unary_unary(f"/{service.full_name}/NoSuchMethod")
@@ -105,7 +94,7 @@ class NginxTest(unittest.TestCase):
         refused = [error for error in errors if error is not None]
         self.assertGreater(len(refused), 0)
         for error in refused:
-            self.assertEqual(error.code(), grpc.StatusCode.UNAVAILABLE)
+            self.assertEqual(error.code(), Code.UNAVAILABLE)
             self.assertIn("slow down", error.details())
 
     def test_who_has_too_many_calls_open_is_told_so(self):
@@ -121,11 +110,9 @@ class NginxTest(unittest.TestCase):
             call = self.channel(front).stream_stream(
                 "/bccskel.v1.SkeletonizationService/Skeletonize")
             calls = [call(nothing(), timeout=60) for _ in range(105)]
-            with self.assertRaises(grpc.RpcError) as refused:
-                list(calls[-1])
+            refused = self.fails(Code.UNAVAILABLE, None, lambda: list(calls[-1]))
             end.set()
-        self.assertEqual(refused.exception.code(), grpc.StatusCode.UNAVAILABLE)
-        self.assertIn("100 calls at a time", refused.exception.details())
+        self.assertIn("100 calls at a time", refused.details())
 
 
 if __name__ == "__main__":

@@ -18,29 +18,14 @@ import unittest
 import grpc
 
 import server_process
-from server_process import ServerProcess, run_to_end
+from interface import (CallTest, Code, HeldBack, connect, example, service, service_grpc, services,
+                       torus_loops, torus_loops_at)
+from server_process import ServerProcess, health, new_token
 
-STUBS = tempfile.TemporaryDirectory()
-server_process.generate_stubs(STUBS.name)
-example = server_process.example()
 CLI = os.environ.get("BCCSKEL", "")
 CONNECTIONS = 300
 SPARE_FILES = 50  # more than a call needs
 SILENT_SCRAPERS = 8
-
-
-def health(channel, service=""):
-    """1 for SERVING, 2 for NOT_SERVING; grpc.health.v1 needs no stubs for this."""
-    request = b"\x0a" + bytes([len(service)]) + service.encode()
-    answer = channel.unary_unary("/grpc.health.v1.Health/Check")(
-        request, timeout=server_process.TIMEOUT_S)
-    return answer[1]
-
-
-def skeletonize(address):
-    with grpc.insecure_channel(address) as channel:
-        grpc.channel_ready_future(channel).result(server_process.TIMEOUT_S)
-        return example.skeletonize(channel, example.torus())
 
 
 def command(*arguments, environment=None):
@@ -107,22 +92,22 @@ class SettingsTest(unittest.TestCase):
         self.assertIn(f"--config: {tempfile.gettempdir()}: cannot be read", ended.stderr)
 
 
-class ListenersTest(unittest.TestCase):
+class ListenersTest(CallTest):
     def test_each_address_is_listened_on(self):
         with tempfile.TemporaryDirectory() as folder:
             second = f"unix:{folder}/server.sock"
             with ServerProcess("--listen", second) as server:
                 self.assertEqual(server.line_after("listening on "), second)
                 for address in (server.address, second):
-                    self.assertEqual(skeletonize(address).summary.certificate.skeleton.loops, 1)
+                    self.assertEqual(torus_loops_at(address), 1)
 
     def test_reflection_and_admin_calls_move_to_the_listener_for_admins(self):
         with ServerProcess("--admin-listen", "127.0.0.1:0") as server:
             address = server.line_after("listening for admins on ")
             reflection = "/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo"
             status = "/bccskel.v1.AdminService/GetServerStatus"
-            for where, expected in ((server.address, grpc.StatusCode.UNIMPLEMENTED),
-                                    (address, grpc.StatusCode.OK)):
+            for where, expected in ((server.address, Code.UNIMPLEMENTED),
+                                    (address, Code.OK)):
                 with grpc.insecure_channel(where) as channel:
                     self.assertEqual(health(channel), 1)
                     for method, request in ((reflection, b"\x3a\x01*"), (status, b"")):
@@ -135,21 +120,20 @@ class ListenersTest(unittest.TestCase):
     def test_an_address_that_is_open_to_a_network_has_no_admin_calls(self):
         with ServerProcess(listen="0.0.0.0:0") as server:
             with grpc.insecure_channel(server.address.replace("0.0.0.0", "127.0.0.1")) as channel:
-                with self.assertRaises(grpc.RpcError) as raised:
-                    channel.unary_unary("/bccskel.v1.AdminService/GetServerStatus")(
-                        b"", timeout=server_process.TIMEOUT_S)
-        self.assertEqual(raised.exception.code(), grpc.StatusCode.UNIMPLEMENTED)
+                status = channel.unary_unary("/bccskel.v1.AdminService/GetServerStatus")
+                self.fails(Code.UNIMPLEMENTED, None,
+                           lambda: status(b"", timeout=server_process.TIMEOUT_S))
 
 
-class MetricsTest(unittest.TestCase):
+class MetricsTest(CallTest):
     def test_the_page_says_what_the_server_did(self):
         with ServerProcess("--metrics-listen", "127.0.0.1:0", "--threads", "2") as server:
             page = server.line_after("metrics at ")
-            points = skeletonize(server.address).summary.object_points
             with grpc.insecure_channel(server.address) as channel:
-                stub = example.service_grpc.SkeletonizationServiceStub(channel)
-                with self.assertRaises(grpc.RpcError):
-                    list(stub.Skeletonize(iter([example.service.SkeletonizeRequest()])))
+                points = example.skeletonize(channel, example.torus()).summary.object_points
+                stub = service_grpc.SkeletonizationServiceStub(channel)
+                self.fails(Code.INVALID_ARGUMENT, "FIELD_INVALID",
+                           lambda: list(stub.Skeletonize(iter([service.SkeletonizeRequest()]))))
             lines = server_process.metrics_after(page, 2, "bccskel_calls_total")
         method = 'method="/bccskel.v1.SkeletonizationService/Skeletonize"'
         for name, value in {
@@ -176,14 +160,13 @@ class MetricsTest(unittest.TestCase):
         with ServerProcess("--metrics-listen", "127.0.0.1:0") as server:
             page = server.line_after("metrics at ")
             with grpc.insecure_channel(server.address) as channel:
-                stub = example.service_grpc.SkeletonizationServiceStub(channel)
+                stub = service_grpc.SkeletonizationServiceStub(channel)
                 config, chunk, finish = example.requests(example.torus())
-                more = example.service.SkeletonizeRequest(chunk=example.volume_pb2.VolumeChunk(
+                more = service.SkeletonizeRequest(chunk=example.volume_pb2.VolumeChunk(
                     offset=len(chunk.chunk.data), data=b"x"))
                 for requests in ([config, chunk, more, finish], [config, finish]):
-                    with self.assertRaises(grpc.RpcError) as raised:
-                        list(stub.Skeletonize(iter(requests)))
-                    self.assertEqual(example.error_reason(raised.exception), "VOLUME_SIZE")
+                    self.fails(Code.INVALID_ARGUMENT, "VOLUME_SIZE",
+                               lambda: list(stub.Skeletonize(iter(requests))))
                 name = ('bccskel_jobs_total{code="INVALID_ARGUMENT",reason="VOLUME_SIZE",'
                         'tenant="default"}')
                 lines = server_process.metrics_after(page, 2)
@@ -194,21 +177,16 @@ class MetricsTest(unittest.TestCase):
         with ServerProcess("--metrics-listen", "127.0.0.1:0") as server:
             page = server.line_after("metrics at ")
             with grpc.insecure_channel(server.address) as channel:
-                stub = example.service_grpc.SkeletonizationServiceStub(channel)
-                for timeout, code in ((server_process.TIMEOUT_S, grpc.StatusCode.CANCELLED),
-                                      (0.5, grpc.StatusCode.DEADLINE_EXCEEDED)):
-                    over = threading.Event()
-
-                    def send(over=over):
-                        yield next(iter(example.requests(example.torus())))
-                        over.wait(server_process.TIMEOUT_S)
-
-                    replies = stub.Skeletonize(send(), timeout=timeout)
+                stub = service_grpc.SkeletonizationServiceStub(channel)
+                for timeout, code in ((server_process.TIMEOUT_S, Code.CANCELLED),
+                                      (0.5, Code.DEADLINE_EXCEEDED)):
+                    requests = HeldBack(example.requests(example.torus()))
+                    replies = stub.Skeletonize(iter(requests), timeout=timeout)
                     self.assertTrue(next(replies).HasField("accepted"))
-                    if code == grpc.StatusCode.CANCELLED:
+                    if code == Code.CANCELLED:
                         replies.cancel()
                     self.assertEqual(replies.code(), code)
-                    over.set()
+                    requests.let_go()
                 lines = server_process.metrics_after(page, 2)
         jobs = {name: value for name, value in lines.items() if name.startswith("bccskel_jobs_total")}
         # The end of a call whose deadline has passed may come to the server as its cancelling.
@@ -275,7 +253,7 @@ class LoadTest(unittest.TestCase):
                 thread.join()
         # Who had a job got its skeleton; the next call was refused as one to try again. (CANCELLED is
         # gRPC's word for calls that reach a server in its last moment.)
-        self.assertLessEqual(set(codes), {grpc.StatusCode.UNAVAILABLE, grpc.StatusCode.CANCELLED})
+        self.assertLessEqual(set(codes), {Code.UNAVAILABLE, Code.CANCELLED})
 
     def test_idle_connections_keep_nobody_out(self):
         with ServerProcess() as server, contextlib.ExitStack() as idle:
@@ -285,7 +263,7 @@ class LoadTest(unittest.TestCase):
                 # Half of them say nothing, half begin to speak HTTP/2 and stop.
                 if number % 2 == 1:
                     connection.sendall(b"PRI * HTTP/2.0\r\n"[:number % 16])
-            self.assertEqual(skeletonize(server.address).summary.certificate.skeleton.loops, 1)
+            self.assertEqual(torus_loops_at(server.address), 1)
             with grpc.insecure_channel(server.address) as channel:
                 self.assertEqual(health(channel), 1)
 
@@ -299,7 +277,7 @@ class LoadTest(unittest.TestCase):
                 for _ in range(2 * SPARE_FILES):
                     idle.enter_context(socket.create_connection((host, int(port))))
                 server.wait_for_event("connections wait")
-            self.assertEqual(skeletonize(server.address).summary.certificate.skeleton.loops, 1)
+            self.assertEqual(torus_loops_at(server.address), 1)
             self.assertEqual(server.stop(), 0)
             self.assertIn("connections are accepted again", server.log_text())
 
@@ -307,36 +285,28 @@ class LoadTest(unittest.TestCase):
 class StopTest(unittest.TestCase):
     def test_sigterm_is_told_by_health_before_the_lame_duck_time_and_the_end(self):
         lame_duck_s = 2.0
-        services = ["", *(service.full_name for service in server_process.services())]
-        self.assertGreaterEqual(len(services), 6)
+        names = ["", *(descriptor.full_name for descriptor in services())]
+        self.assertGreaterEqual(len(names), 6)
         with ServerProcess("--lame-duck-ms", str(int(1000 * lame_duck_s))) as server, \
                 grpc.insecure_channel(server.address) as channel:
-            self.assertEqual([health(channel, name) for name in services], [1] * len(services))
+            self.assertEqual([health(channel, name) for name in names], [1] * len(names))
             start = time.monotonic()
             server.process.send_signal(signal.SIGTERM)
             while health(channel) == 1:  # the test's time limit ends it
                 time.sleep(0.01)
-            with grpc.insecure_channel(  # who comes now is told, too, and not left without answer
-                    server.address, [("grpc.use_local_subchannel_pool", 1)]) as later:
-                self.assertEqual([health(later, name) for name in services], [2] * len(services))
+            with connect(server.address) as later:  # told, too, and not left without answer
+                self.assertEqual([health(later, name) for name in names], [2] * len(names))
                 # Balancers that have not asked yet still send calls here: they are served.
-                done = example.skeletonize(later, example.torus())
-                self.assertEqual(done.summary.certificate.skeleton.loops, 1)
+                self.assertEqual(torus_loops(later), 1)
             self.assertEqual(server.process.wait(server_process.TIMEOUT_S), 0)
             self.assertGreaterEqual(time.monotonic() - start, lame_duck_s)
 
     def test_after_the_lame_duck_time_new_calls_are_refused_and_begun_ones_go_on(self):
         with ServerProcess("--lame-duck-ms", "300") as server, \
                 grpc.insecure_channel(server.address) as channel:
-            requests, go_on = list(example.requests(example.torus())), threading.Event()
-
-            def held_back():
-                yield requests[0]
-                go_on.wait(server_process.TIMEOUT_S)
-                yield from requests[1:]
-
-            stub = example.service_grpc.SkeletonizationServiceStub(channel)
-            replies = stub.Skeletonize(held_back())
+            requests = HeldBack(example.requests(example.torus()))
+            stub = service_grpc.SkeletonizationServiceStub(channel)
+            replies = stub.Skeletonize(iter(requests))
             self.assertTrue(next(replies).HasField("accepted"))
             server.process.send_signal(signal.SIGTERM)
             reason = None
@@ -346,7 +316,7 @@ class StopTest(unittest.TestCase):
                 except grpc.RpcError as error:
                     reason = example.error_reason(error)
             self.assertEqual(reason, "DRAINING")
-            go_on.set()
+            requests.let_go()
             self.assertTrue(list(replies)[-1].HasField("summary"))
             self.assertEqual(server.process.wait(server_process.TIMEOUT_S), 0)
 
@@ -367,7 +337,7 @@ class CommandsTest(unittest.TestCase):
 
     def test_top_shows_what_the_server_did(self):
         with ServerProcess("--threads", "2") as server:
-            skeletonize(server.address)
+            torus_loops_at(server.address)
             shown = command("top", "--once", "--json", "--server", server.address)
             self.assertEqual(shown.returncode, 0, shown.stderr)
             status = json.loads(shown.stdout)
@@ -426,7 +396,7 @@ class CommandsTest(unittest.TestCase):
     def test_every_command_with_a_server_takes_a_token_from_a_file(self):
         with tempfile.TemporaryDirectory() as folder:
             folder = pathlib.Path(folder)
-            token, line = run_to_end("--new-token", "ops").stdout.splitlines()
+            token, line = new_token("ops")
             (folder / "tokens").write_text(line + " admin\n")
             (folder / "token").write_text(token + "\n")
             volume = str(folder / "torus.exr")

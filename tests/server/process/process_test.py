@@ -5,26 +5,14 @@ import os
 import pathlib
 import signal
 import subprocess
-import sys
 import tempfile
 import unittest
 
 import grpc
 
 import server_process
+from interface import example, run_python, service, service_grpc, torus_loops_at, volume_pb2
 from server_process import ServerProcess, run_to_end
-
-STUBS = tempfile.TemporaryDirectory()
-server_process.generate_stubs(STUBS.name)
-example = server_process.example()
-# The example's imports, which the stubs made possible.
-service, service_grpc, volume_pb2 = example.service, example.service_grpc, example.volume_pb2
-
-
-def torus_loops(address):
-    with grpc.insecure_channel(address) as channel:
-        grpc.channel_ready_future(channel).result(server_process.TIMEOUT_S)
-        return example.skeletonize(channel, example.torus()).summary.certificate.skeleton.loops
 
 
 class FlagsTest(unittest.TestCase):
@@ -53,7 +41,7 @@ class FlagsTest(unittest.TestCase):
     def test_the_log_is_json_lines_and_standard_output_the_address(self):
         with ServerProcess() as server:
             self.assertRegex(server.greeting, r"^listening on 127\.0\.0\.1:[1-9][0-9]*\n$")
-            self.assertEqual(torus_loops(server.address), 1)
+            self.assertEqual(torus_loops_at(server.address), 1)
             server.wait_for_event("call ended")  # the caller may know sooner
             self.assertEqual(server.stop(), 0)
             self.assertEqual(server.process.stdout.read(), "")
@@ -62,7 +50,7 @@ class FlagsTest(unittest.TestCase):
 
     def test_the_log_level_silences(self):
         with ServerProcess("--log-level", "error") as server:
-            self.assertEqual(torus_loops(server.address), 1)
+            self.assertEqual(torus_loops_at(server.address), 1)
             self.assertEqual(server.stop(), 0)
             self.assertEqual(server.log_text(), "")
 
@@ -93,18 +81,18 @@ class UnixSocketTest(unittest.TestCase):
     def test_a_clean_end_leaves_no_file(self):
         with ServerProcess(listen=self.listen) as server:
             self.assertEqual(server.address, self.listen)
-            self.assertEqual(torus_loops(self.listen), 1)
+            self.assertEqual(torus_loops_at(self.listen), 1)
             self.assertEqual(server.stop(), 0)
         self.assertEqual(os.listdir(self.folder.name), [])
 
     def test_after_a_kill_the_next_server_takes_the_same_path(self):
         for _ in range(3):
             with ServerProcess(listen=self.listen) as server:
-                self.assertEqual(torus_loops(self.listen), 1)
+                self.assertEqual(torus_loops_at(self.listen), 1)
                 self.assertEqual(server.stop(signal.SIGKILL), -signal.SIGKILL)
             self.assertTrue(self.path.exists())
         with ServerProcess(listen=self.listen) as server:
-            self.assertEqual(torus_loops(self.listen), 1)
+            self.assertEqual(torus_loops_at(self.listen), 1)
             self.assertEqual(server.stop(), 0)
 
     def test_two_servers_do_not_share_a_path(self):
@@ -112,14 +100,13 @@ class UnixSocketTest(unittest.TestCase):
             second = run_to_end("--listen", self.listen)
             self.assertEqual(second.returncode, 1)
             self.assertIn("another server listens", second.stderr)
-            self.assertEqual(torus_loops(self.listen), 1)
+            self.assertEqual(torus_loops_at(self.listen), 1)
             self.assertEqual(first.stop(), 0)
 
 
 VANISHING_CALLER = """
 import os, signal, sys
 import grpc
-sys.path[:0] = [sys.argv[2], sys.argv[3]]
 import skeletonize
 def half():
     for number, message in enumerate(skeletonize.requests(skeletonize.torus(90.0, 30.0))):
@@ -134,21 +121,18 @@ list(stub.Skeletonize(half()))
 class LoadTest(unittest.TestCase):
     def test_the_place_of_a_caller_who_is_killed_is_free_again(self):
         with ServerProcess("--max-jobs", "1", "--max-queue", "0") as server:
-            caller = subprocess.run(
-                [sys.executable, "-c", VANISHING_CALLER, server.address, STUBS.name,
-                 server_process.SOURCE / "client/examples"], check=False,
-                timeout=server_process.TIMEOUT_S)
+            caller = run_python("-c", VANISHING_CALLER, server.address)
             self.assertEqual(caller.returncode, -signal.SIGKILL)
             while True:  # the test's time limit ends it
                 try:
-                    self.assertEqual(torus_loops(server.address), 1)
+                    self.assertEqual(torus_loops_at(server.address), 1)
                     break
                 except grpc.RpcError as error:
                     self.assertEqual(example.error_reason(error), "QUEUE_FULL")
 
     def test_a_declared_giant_is_refused_before_memory_is_taken(self):
         with ServerProcess("--max-memory-bytes", "1GB") as server:
-            self.assertEqual(torus_loops(server.address), 1)
+            self.assertEqual(torus_loops_at(server.address), 1)
             before = server.peak_bytes()
             with grpc.insecure_channel(server.address) as channel:
                 for cells, bricks in ((4_000_000, 0), (4_000, 0), (4_000_000, 1 << 23)):

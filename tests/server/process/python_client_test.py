@@ -2,20 +2,12 @@
 
 import os
 import re
-import subprocess
-import sys
 import tempfile
 import unittest
 
-import grpc
 import numpy as np
 
-import server_process
-from server_process import ServerTest
-
-STUBS = tempfile.TemporaryDirectory()
-server_process.generate_stubs(STUBS.name)
-example = server_process.example()
+from interface import EXAMPLES, SOURCE, Code, ServerTest, example, run_python
 
 
 class ExampleTest(ServerTest):
@@ -179,52 +171,44 @@ class ExampleTest(ServerTest):
         self.assertLess(moved, 0.7 * offset([example.smoothed(path) for path in skeleton.paths]))
 
     def test_the_reason_of_an_error_can_be_read(self):
-        with self.assertRaises(grpc.RpcError) as raised:
-            self.skeletonize(example.torus(), spacing=-1.0)
-        self.assertEqual(raised.exception.code(), grpc.StatusCode.INVALID_ARGUMENT)
-        self.assertEqual(example.error_reason(raised.exception), "FIELD_INVALID")
-        self.assertIn("spacing", raised.exception.details())
+        error = self.fails(Code.INVALID_ARGUMENT, "FIELD_INVALID",
+                           lambda: self.skeletonize(example.torus(), spacing=-1.0))
+        self.assertIn("spacing", error.details())
 
     def run_script(self, *arguments):
-        return subprocess.run(
-            [sys.executable, server_process.SOURCE / "client/examples/skeletonize.py", *arguments],
-            env={**os.environ, "PYTHONPATH": STUBS.name}, capture_output=True, text=True,
-            check=False, timeout=server_process.TIMEOUT_S)
+        return run_python(EXAMPLES / "skeletonize.py", "--server", self.server.address, *arguments)
+
+    def run_script_on(self, array):
+        with tempfile.NamedTemporaryFile(suffix=".npy") as file:
+            np.save(file, array)
+            file.flush()
+            return self.run_script(file.name)
 
     def test_the_block_of_the_readme_runs_as_printed(self):
-        readme = (server_process.SOURCE / "README.md").read_text()
+        readme = (SOURCE / "README.md").read_text()
         block = re.search(r"```python\n(.*?)```", readme, re.S)[1]
         self.assertEqual(block.count("127.0.0.1:50051"), 1)
         with tempfile.TemporaryDirectory() as folder:
-            path = f"{STUBS.name}:{server_process.SOURCE}/client/examples"
-            ended = subprocess.run(
-                [sys.executable, "-c", block.replace("127.0.0.1:50051", self.server.address)],
-                cwd=folder, env={**os.environ, "PYTHONPATH": path}, capture_output=True, text=True,
-                check=False, timeout=server_process.TIMEOUT_S)
+            ended = run_python("-c", block.replace("127.0.0.1:50051", self.server.address),
+                               cwd=folder)
             self.assertEqual(ended.returncode, 0, ended.stderr)
             self.assertIn("loops: 1", ended.stdout)
             self.assertEqual(os.listdir(folder), ["skeleton.swc"])
 
     def test_the_script_runs_as_documented(self):
-        with tempfile.NamedTemporaryFile(suffix=".npy") as file:
-            np.save(file, example.torus(30.0, 9.0))
-            file.flush()
-            ended = self.run_script(file.name, "--server", self.server.address)
+        ended = self.run_script_on(example.torus(30.0, 9.0))
         self.assertEqual(ended.returncode, 0, ended.stderr)
         self.assertIn("1 components, 1 loops, 0 cavities", ended.stdout)
         self.assertIn("edge 0 - 0:", ended.stdout)
 
     def test_the_script_says_why_it_refuses_an_array(self):
-        with tempfile.NamedTemporaryFile(suffix=".npy") as file:
-            np.save(file, np.ones((5, 6)))
-            file.flush()
-            ended = self.run_script(file.name, "--server", self.server.address)
+        ended = self.run_script_on(np.ones((5, 6)))
         self.assertEqual(ended.returncode, 1)
         self.assertIn("not (5, 6)", ended.stderr)
         self.assertNotIn("Traceback", ended.stderr)
 
     def test_the_script_says_why_it_failed(self):
-        ended = self.run_script("--server", self.server.address, "--spacing", "-1")
+        ended = self.run_script("--spacing", "-1")
         self.assertEqual(ended.returncode, 1)
         self.assertIn("INVALID_ARGUMENT (FIELD_INVALID)", ended.stderr)
 

@@ -9,18 +9,13 @@ import grpc
 import numpy as np
 
 import server_process
-from durable_case import (Code, DurableTest, durable, example, large_volume, service, service_grpc,
-                          volume, volume_pb2, volumes)
-from server_process import ServerProcess, run_to_end
+from durable_case import DurableTest, large_volume, volume
+from interface import (Code, bearer, durable, example, service, service_grpc, torus_loops,
+                       volume_pb2, volumes)
+from server_process import ServerProcess, new_token
 
 LIMIT_MS = 700
 PLACES = ("--max-jobs", "1", "--max-queue", "1", "--threads", "1")
-
-
-def new_token(tenant):
-    made = run_to_end("--new-token", tenant)
-    assert made.returncode == 0, made.stderr
-    return made.stdout.splitlines()
 
 
 class Sender:
@@ -65,8 +60,7 @@ class SilentSenderTest(unittest.TestCase):
                 self.assertEqual((code, reason), (Code.ABORTED, "SENDER_TIMEOUT"))
                 self.assertIn(f"{LIMIT_MS} ms", details)
                 self.assertIn("sender-timeout-ms", details)
-            done = durable.patiently(lambda: example.skeletonize(channel, example.torus()))
-            self.assertEqual(done.summary.certificate.skeleton.loops, 1)
+            self.assertEqual(durable.patiently(lambda: torus_loops(channel)), 1)
             lines = server_process.metrics_after(page, 3)
         self.assertEqual(lines['bccskel_jobs_total{code="ABORTED",reason="SENDER_TIMEOUT",'
                                'tenant="default"}'], "2")
@@ -83,8 +77,7 @@ class SilentDurableSenderTest(DurableTest):
         for upload in uploads:
             found = self.volumes.GetUploadStatus(volumes.GetUploadStatusRequest(upload=upload))
             self.assertEqual(found.upload.committed_size, 0)
-        done = durable.patiently(lambda: example.skeletonize(self.channel, example.torus()))
-        self.assertEqual(done.summary.certificate.skeleton.loops, 1)
+        self.assertEqual(durable.patiently(lambda: torus_loops(self.channel)), 1)
 
     def test_an_upload_of_a_volume_ends_in_time_and_goes_on_later(self):
         self.start("--sender-timeout-ms", str(LIMIT_MS))
@@ -96,14 +89,10 @@ class SilentDurableSenderTest(DurableTest):
 
         send(config=volumes.UploadVolumeConfig(upload="uploads/silent", volume=declaration))
         send(chunk=volume_pb2.VolumeChunk(data=data[:10]))
-        with self.assertRaises(grpc.RpcError) as ended:
-            self.volumes.UploadVolume(iter(requests.get, None), timeout=server_process.TIMEOUT_S)
+        self.fails(Code.ABORTED, "SENDER_TIMEOUT", lambda: self.volumes.UploadVolume(
+            iter(requests.get, None), timeout=server_process.TIMEOUT_S))
         requests.put(None)
-        self.assertEqual((ended.exception.code(), example.error_reason(ended.exception)),
-                         (Code.ABORTED, "SENDER_TIMEOUT"))
-        found = self.volumes.GetUploadStatus(
-            volumes.GetUploadStatusRequest(upload="uploads/silent"))
-        self.assertEqual(found.upload.committed_size, 10)
+        self.assertEqual(durable.committed_size(self.volumes, "uploads/silent"), 10)
 
 
 class SilentReaderTest(unittest.TestCase):
@@ -137,7 +126,7 @@ class SharesTest(unittest.TestCase):
             with ServerProcess("--tokens", tokens.name, "--max-jobs", "2", "--max-queue",
                                "4") as server, grpc.insecure_channel(server.address) as channel:
                 declaration, _ = volume()
-                metadata = (("authorization", f"Bearer {greedy}"),)
+                metadata = bearer(greedy)
                 senders = [Sender(channel, declaration, metadata) for _ in range(3)]
                 for sender in senders:
                     sender.accepted()
@@ -147,7 +136,7 @@ class SharesTest(unittest.TestCase):
                 stub = service_grpc.SkeletonizationServiceStub(channel)
                 replies = list(stub.Skeletonize(
                     example.requests(example.torus()), timeout=server_process.TIMEOUT_S,
-                    metadata=(("authorization", f"Bearer {other}"),)))
+                    metadata=bearer(other)))
                 self.assertTrue(replies[-1].HasField("summary"))
                 for sender in senders:
                     sender.requests.put(None)

@@ -1,18 +1,13 @@
-"""bccskel-server as a process, and the Python code of the interface, for the tests beside this."""
+"""bccskel-server as a process, for the tests beside this."""
 
-import importlib
-import importlib.util
 import os
 import pathlib
+import re
 import signal
 import subprocess
-import sys
 import tempfile
 import time
-import unittest
 import urllib.request
-
-import grpc
 
 BINARY = os.environ["BCCSKEL_SERVER"]
 SOURCE = pathlib.Path(__file__).resolve().parents[3]
@@ -66,10 +61,14 @@ class ServerProcess:
         pathlib.Path(f"/proc/{self.process.pid}/clear_refs").write_text("5")
 
     def peak_bytes(self):
-        for line in pathlib.Path(f"/proc/{self.process.pid}/status").read_text().splitlines():
-            if line.startswith("VmHWM:"):
-                return int(line.split()[1]) * 1024
-        raise RuntimeError("no VmHWM")
+        return self.memory_bytes("VmHWM")
+
+    def resident_bytes(self):
+        return self.memory_bytes("VmRSS")
+
+    def memory_bytes(self, name):
+        status = pathlib.Path(f"/proc/{self.process.pid}/status").read_text()
+        return int(re.search(rf"^{name}:\s+(\d+) kB$", status, re.MULTILINE)[1]) * 1024
 
 
 def metrics(page):
@@ -95,6 +94,19 @@ def run_to_end(*flags):
                           check=False)
 
 
+def new_token(tenant):
+    """A token and its line."""
+    made = run_to_end("--new-token", tenant)
+    assert made.returncode == 0, made.stderr
+    return made.stdout.splitlines()
+
+
+def health(channel, service=""):
+    """1 for SERVING, 2 for NOT_SERVING; grpc.health.v1 needs no stubs for this."""
+    request = b"\x0a" + bytes([len(service)]) + service.encode()
+    return channel.unary_unary("/grpc.health.v1.Health/Check")(request, timeout=TIMEOUT_S)[1]
+
+
 def framed(seed):
     """The requests of a fuzzer's seed: a byte, then each with its size as a varint before it."""
     at = 1
@@ -107,44 +119,3 @@ def framed(seed):
                 break
         yield seed[at:at + size]
         at += size
-
-
-def generate_stubs(folder):
-    """As the example says, with Debian's protoc."""
-    protos = sorted(str(path) for path in (SOURCE / "proto/bccskel/v1").glob("*.proto"))
-    subprocess.run([os.environ["PROTOC"], "-I", SOURCE / "proto", f"--python_out={folder}",
-                    f"--grpc_python_out={folder}",
-                    f"--plugin=protoc-gen-grpc_python={os.environ['GRPC_PYTHON_PLUGIN']}",
-                    *protos], check=True)
-    sys.path.insert(0, str(folder))
-
-
-def services():
-    """The descriptors of all services of the interface. Needs the stubs."""
-    modules = [importlib.import_module(f"bccskel.v1.{path.stem}_pb2")
-               for path in sorted((SOURCE / "proto/bccskel/v1").glob("*.proto"))]
-    return [service for module in modules
-            for service in module.DESCRIPTOR.services_by_name.values()]
-
-
-def example(name="skeletonize"):
-    """A file of client/examples as a module. Needs the stubs."""
-    spec = importlib.util.spec_from_file_location(name, SOURCE / f"client/examples/{name}.py")
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[name] = module
-    spec.loader.exec_module(module)
-    return module
-
-
-class ServerTest(unittest.TestCase):
-    """Tests that share one server."""
-
-    @classmethod
-    def setUpClass(cls):
-        cls.server = ServerProcess()
-        cls.channel = grpc.insecure_channel(cls.server.address)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.channel.close()
-        cls.server.__exit__()

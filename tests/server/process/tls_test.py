@@ -7,7 +7,6 @@ import socket
 import ssl
 import subprocess
 import tempfile
-import threading
 import time
 import unittest
 
@@ -15,16 +14,10 @@ import grpc
 
 import server_process
 from certificates import Authority, Pair
-from server_process import ServerProcess, run_to_end
+from interface import HeldBack, example, service_grpc, torus_loops
+from server_process import ServerProcess, new_token, run_to_end
 
-STUBS = tempfile.TemporaryDirectory()
-server_process.generate_stubs(STUBS.name)
-example = server_process.example()
 CLI = os.environ.get("BCCSKEL", "")
-
-
-def loops(channel):
-    return example.skeletonize(channel, example.torus()).summary.certificate.skeleton.loops
 
 
 def outcome(address, credentials):
@@ -33,7 +26,7 @@ def outcome(address, credentials):
     with (grpc.secure_channel(address, credentials, options) if credentials else
           grpc.insecure_channel(address, options)) as channel:
         try:
-            return grpc.StatusCode.OK if loops(channel) == 1 else None
+            return grpc.StatusCode.OK if torus_loops(channel) == 1 else None
         except grpc.RpcError as error:
             return error.code()
 
@@ -100,18 +93,11 @@ class TlsTest(unittest.TestCase):
         live.symlink_to("v1")
         pair = Pair(live, "rotating")
         with ServerProcess(*self.flags(pair)) as server:
-            go_on = threading.Event()
-
-            def requests():
-                messages = example.requests(example.torus())
-                yield next(messages)
-                go_on.wait(server_process.TIMEOUT_S)
-                yield from messages
-
+            requests = HeldBack(example.requests(example.torus()))
             credentials = grpc.ssl_channel_credentials(self.root)
             with grpc.secure_channel(server.address, credentials) as channel:
-                replies = example.service_grpc.SkeletonizationServiceStub(channel).Skeletonize(
-                    requests(), timeout=server_process.TIMEOUT_S)
+                replies = service_grpc.SkeletonizationServiceStub(channel).Skeletonize(
+                    iter(requests), timeout=server_process.TIMEOUT_S)
                 self.assertTrue(next(replies).HasField("accepted"))
                 self.assertEqual(shown_certificate(server.address),
                                  versions[0].certificate.read_text())
@@ -121,7 +107,7 @@ class TlsTest(unittest.TestCase):
                 while shown_certificate(server.address) != versions[1].certificate.read_text():
                     self.assertLess(time.monotonic(), end)
                     time.sleep(0.1)
-                go_on.set()
+                requests.let_go()
                 self.assertTrue(list(replies)[-1].HasField("summary"))
             self.assertEqual(outcome(server.address, credentials), grpc.StatusCode.OK)
 
@@ -178,7 +164,7 @@ class TlsTest(unittest.TestCase):
 
     @unittest.skipUnless(CLI, "the command line is not built")
     def test_the_command_line_speaks_tls_and_shows_certificate_and_token(self):
-        token, line = run_to_end("--new-token", "acme").stdout.splitlines()
+        token, line = new_token("acme")
         for name, text in (("tokens", line), ("token", token)):
             (self.folder / name).write_text(text + "\n")
         client = self.ours.issue("client")

@@ -1,10 +1,8 @@
 """Tokens and tenants of the real server."""
 
-import importlib
 import json
 import pathlib
 import tempfile
-import threading
 import time
 import unittest
 
@@ -12,40 +10,12 @@ import grpc
 import numpy as np
 
 import server_process
-from server_process import ServerProcess, run_to_end
-
-STUBS = tempfile.TemporaryDirectory()
-server_process.generate_stubs(STUBS.name)
-example = server_process.example()
-admin = importlib.import_module("bccskel.v1.admin_service_pb2")
-admin_grpc = importlib.import_module("bccskel.v1.admin_service_pb2_grpc")
-details = importlib.import_module("bccskel.v1.rpc_details_pb2")
-jobs = importlib.import_module("bccskel.v1.job_service_pb2")
-jobs_grpc = importlib.import_module("bccskel.v1.job_service_pb2_grpc")
+from interface import (CallTest, Code, HeldBack, admin, admin_grpc, bearer, example, jobs,
+                       jobs_grpc, service_grpc, services)
+from server_process import ServerProcess, new_token, run_to_end
 
 
-def new_token(tenant):
-    """A token and its line."""
-    made = run_to_end("--new-token", tenant)
-    assert made.returncode == 0, made.stderr
-    return made.stdout.splitlines()
-
-
-def bearer(token):
-    return (("authorization", f"Bearer {token}"),) if token else ()
-
-
-def reason_of(error):
-    for key, value in error.trailing_metadata():
-        if key == "grpc-status-details-bin":
-            status = details.Status.FromString(value)
-            for detail in status.details:
-                if detail.type_url.endswith("ErrorInfo"):
-                    return details.ErrorInfo.FromString(detail.value).reason
-    return None
-
-
-class TokensTest(unittest.TestCase):
+class TokensTest(CallTest):
     def setUp(self):
         self.temporary = tempfile.TemporaryDirectory()
         self.file = pathlib.Path(self.temporary.name) / "tokens"
@@ -69,13 +39,13 @@ class TokensTest(unittest.TestCase):
     def outcome(self, server, token):
         """OK, or the code and the reason of the failure."""
         with grpc.insecure_channel(server.address) as channel:
-            stub = example.service_grpc.SkeletonizationServiceStub(channel)
+            stub = service_grpc.SkeletonizationServiceStub(channel)
             try:
                 list(stub.Skeletonize(example.requests(example.torus()), metadata=bearer(token),
                                       timeout=server_process.TIMEOUT_S))
-                return grpc.StatusCode.OK
+                return Code.OK
             except grpc.RpcError as error:
-                return error.code(), reason_of(error)
+                return error.code(), example.error_reason(error)
 
     def wait_for(self, server, token, wanted):
         end = time.monotonic() + server_process.TIMEOUT_S
@@ -84,23 +54,22 @@ class TokensTest(unittest.TestCase):
             time.sleep(0.1)
 
     def test_every_method_of_every_service_wants_a_token(self):
-        methods = [f"/{service.full_name}/{method.name}" for service in server_process.services()
+        methods = [f"/{service.full_name}/{method.name}" for service in services()
                    for method in service.methods]
         self.assertGreaterEqual(len(methods), 16)
         with self.server() as server, grpc.insecure_channel(server.address) as channel:
             for method in methods:
                 # Whether it streams makes no difference for a call that is refused at once.
                 call = channel.stream_stream(method)
-                with self.assertRaises(grpc.RpcError) as raised:
-                    list(call(iter([b""]), timeout=server_process.TIMEOUT_S))
-                self.assertEqual(raised.exception.code(), grpc.StatusCode.UNAUTHENTICATED, method)
-                self.assertEqual(reason_of(raised.exception), "TOKEN_MISSING", method)
+                with self.subTest(method):
+                    self.fails(Code.UNAUTHENTICATED, "TOKEN_MISSING", lambda: list(
+                        call(iter([b""]), timeout=server_process.TIMEOUT_S)))
 
     def test_a_token_lets_its_tenant_in_and_no_other_text_does(self):
-        refused = (grpc.StatusCode.UNAUTHENTICATED, "TOKEN_INVALID")
+        refused = (Code.UNAUTHENTICATED, "TOKEN_INVALID")
         with self.server() as server:
-            self.assertEqual(self.outcome(server, self.acme), grpc.StatusCode.OK)
-            self.assertEqual(self.outcome(server, self.lab), grpc.StatusCode.OK)
+            self.assertEqual(self.outcome(server, self.acme), Code.OK)
+            self.assertEqual(self.outcome(server, self.lab), Code.OK)
             for text in (self.acme[:-1], self.acme + "0", "acme", self.lines[0].split()[1], "x"):
                 self.assertEqual(self.outcome(server, text), refused)
 
@@ -109,63 +78,52 @@ class TokensTest(unittest.TestCase):
             ask = admin_grpc.AdminServiceStub(channel).GetServerStatus
             request = admin.GetServerStatusRequest()
             self.assertEqual(ask(request, metadata=bearer(self.ops)).threads > 0, True)
-            with self.assertRaises(grpc.RpcError) as raised:
-                ask(request, metadata=bearer(self.acme))
-            self.assertEqual(raised.exception.code(), grpc.StatusCode.PERMISSION_DENIED)
-            self.assertEqual(reason_of(raised.exception), "ADMIN_ONLY")
+            self.fails(Code.PERMISSION_DENIED, "ADMIN_ONLY",
+                       lambda: ask(request, metadata=bearer(self.acme)))
 
     def test_the_file_is_read_again_and_a_mistake_in_it_changes_nothing(self):
-        refused = (grpc.StatusCode.UNAUTHENTICATED, "TOKEN_INVALID")
+        refused = (Code.UNAUTHENTICATED, "TOKEN_INVALID")
         token, line = new_token("newcomer")
         with self.server() as server:
             self.assertEqual(self.outcome(server, token), refused)
             self.write(self.lines[1:] + [line])
-            self.wait_for(server, token, grpc.StatusCode.OK)
+            self.wait_for(server, token, Code.OK)
             self.assertEqual(self.outcome(server, self.acme), refused)
             self.write(["newcomer " + "x" * 64])
             server.wait_for_event("tokens not reloaded")
-            self.assertEqual(self.outcome(server, token), grpc.StatusCode.OK)
+            self.assertEqual(self.outcome(server, token), Code.OK)
             self.assertEqual(server.stop(), 0)
 
     def test_calls_under_way_end_with_their_token_and_those_of_others_go_on(self):
         with tempfile.TemporaryDirectory() as data, self.server("--data-dir", data) as server, \
                 grpc.insecure_channel(server.address) as channel:
-            stub = example.service_grpc.SkeletonizationServiceStub(channel)
-            go_on = threading.Event()
-            self.addCleanup(go_on.set)
-
-            def held_back(array):
-                requests = list(example.requests(array))
-                yield requests[0]
-                go_on.wait(server_process.TIMEOUT_S)
-                yield from requests[1:]
+            stub = service_grpc.SkeletonizationServiceStub(channel)
 
             def begin(token, array):
-                call = stub.Skeletonize(held_back(array), metadata=bearer(token),
+                requests = HeldBack(example.requests(array))
+                self.addCleanup(requests.let_go)
+                call = stub.Skeletonize(iter(requests), metadata=bearer(token),
                                         timeout=server_process.TIMEOUT_S)
-                return call, next(call).accepted.job
+                return requests, call, next(call).accepted.job
 
             small, large = example.torus(), example.torus(200.0, 60.0)
-            revoked, _ = begin(self.acme, small)
-            durable, job = begin(self.acme, large)
+            _, revoked, _ = begin(self.acme, small)
+            _, durable, job = begin(self.acme, large)
             watch = jobs_grpc.JobServiceStub(channel).WatchJob(
                 jobs.WatchJobRequest(job=job), metadata=bearer(self.acme),
                 timeout=server_process.TIMEOUT_S)
             next(watch)
-            kept, _ = begin(self.lab, small)
+            requests, kept, _ = begin(self.lab, small)
             self.write(self.lines[1:])
             for call in (revoked, durable, watch):
-                with self.assertRaises(grpc.RpcError) as raised:
-                    list(call)
-                self.assertEqual((raised.exception.code(), reason_of(raised.exception)),
-                                 (grpc.StatusCode.UNAUTHENTICATED, "TOKEN_INVALID"))
-            go_on.set()
+                self.fails(Code.UNAUTHENTICATED, "TOKEN_INVALID", lambda: list(call))
+            requests.let_go()
             self.assertTrue(list(kept)[-1].HasField("summary"))
 
     def test_a_call_that_nobody_reads_ends_with_its_token(self):
         noise = np.random.default_rng(1).random((2, 64, 64, 64)) < 0.35
         with self.server() as server, grpc.insecure_channel(server.address) as channel:
-            unread = example.service_grpc.SkeletonizationServiceStub(channel).Skeletonize(
+            unread = service_grpc.SkeletonizationServiceStub(channel).Skeletonize(
                 example.requests(noise), metadata=bearer(self.acme),
                 timeout=server_process.TIMEOUT_S)
             server.wait_for_event("job accepted")
@@ -181,7 +139,7 @@ class TokensTest(unittest.TestCase):
             for token in (self.acme, self.lab, "bccskel_wrong"):
                 self.outcome(server, token)
             with grpc.insecure_channel(server.address) as channel:
-                stub = example.service_grpc.SkeletonizationServiceStub(channel)
+                stub = service_grpc.SkeletonizationServiceStub(channel)
                 for traceparent in (trace, f"a {self.acme} in the wrong place"):
                     list(stub.Skeletonize(
                         example.requests(example.torus()), timeout=server_process.TIMEOUT_S,

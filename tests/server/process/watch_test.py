@@ -1,20 +1,17 @@
 """Streams of a server with a data directory: heartbeats, and callers who read slowly or not at all."""
 
 import os
-import threading
 import unittest
 
 import grpc
 import numpy as np
 
-import server_process
-from durable_case import (DurableTest, durable, example, jobs, large_volume, service,
-                          service_grpc)
+from durable_case import DurableTest, large_requests, large_volume
+from interface import (HeldBack, durable, example, jobs, options_pb2 as options, service_grpc,
+                       shell_width, torus_loops)
 from server_process import ServerProcess
 
-# The stubs of durable_case made these possible.
-from bccskel.v1 import options_pb2 as options
-from bccskel.v1 import server_service_pb2 as capabilities
+from bccskel.v1 import server_service_pb2 as capabilities  # in the stubs
 from bccskel.v1 import server_service_pb2_grpc as capabilities_grpc
 
 # A sanitized server would keep 256 MiB of freed memory, to see who still uses it.
@@ -44,14 +41,8 @@ class CapabilitiesTest(DurableTest):
 class HeartbeatTest(DurableTest):
     def test_a_job_to_which_nothing_happens_sends_heartbeats(self):
         self.start()
-        declaration, _ = large_volume()
-        done = threading.Event()
-
-        def config_only():
-            yield service.SkeletonizeRequest(config=service.SkeletonizeConfig(volume=declaration))
-            done.wait(server_process.TIMEOUT_S)
-
-        replies = service_grpc.SkeletonizationServiceStub(self.channel).Skeletonize(config_only())
+        requests = HeldBack(large_requests())
+        replies = service_grpc.SkeletonizationServiceStub(self.channel).Skeletonize(iter(requests))
         job = next(replies).accepted.job
         events = self.jobs.WatchJob(jobs.WatchJobRequest(job=job))
         first = next(events)
@@ -63,7 +54,7 @@ class HeartbeatTest(DurableTest):
         self.jobs.CancelJob(jobs.CancelJobRequest(job=job))
         self.assertEqual([event.state_change.state for event in events],
                          [jobs.JOB_STATE_CANCELLED])
-        done.set()
+        requests.let_go()
 
 
 def thicket():
@@ -93,8 +84,7 @@ class SlowReaderTest(DurableTest):
         first = [next(pieces) for pieces in slow]
         # Others go on meanwhile, also on the same connection.
         whole = list(self.jobs.ReadSkeleton(jobs.ReadSkeletonRequest(job=job)))
-        self.assertEqual(example.skeletonize(self.channel, example.torus())
-                         .summary.certificate.skeleton.loops, 1)
+        self.assertEqual(torus_loops(self.channel), 1)
         grown = server.peak_bytes() - before
         print(f"{self.READERS} readers stopped after {first[0].ByteSize()} of {size} bytes: "
               f"the server grew by {grown / MIB:.1f} MiB")
@@ -108,7 +98,7 @@ class SlowReaderTest(DurableTest):
         name = durable.send_volume(self.channel, *large_volume())
         server.forget_peak()
         before = server.peak_bytes()
-        job = self.create(name, options=options.SkeletonizeOptions(shell_width=0.75)).name
+        job = self.create(name, options=shell_width(0.75)).name
         unread = [self.jobs.WatchJob(jobs.WatchJobRequest(job=job)) for _ in range(self.READERS)]
         states = self.finish(job)
         self.assertEqual(states[-1], jobs.JOB_STATE_SUCCEEDED)
