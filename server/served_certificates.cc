@@ -60,6 +60,11 @@ absl::StatusOr<Reload> ServedCertificates::ReloadIfChanged() {
   return Reload::kDone;
 }
 
+std::chrono::system_clock::time_point ServedCertificates::end() const {
+  const std::lock_guard lock(mutex_);
+  return bytes_.end;
+}
+
 std::shared_ptr<grpc::ServerCredentials> ServedCertificates::CredentialsOfAddress() {
   return std::make_shared<Credentials>(*this);
 }

@@ -3,9 +3,8 @@
 
 #include <grpcpp/security/server_credentials.h>
 
-#include <atomic>
+#include <chrono>
 #include <cstdint>
-#include <deque>
 #include <memory>
 #include <mutex>
 
@@ -27,6 +26,9 @@ class ServedCertificates {
   // Errors: as ReadTlsFiles(), once for each change.
   absl::StatusOr<Reload> ReloadIfChanged();
 
+  // When the served certificate expires. Threads: any.
+  std::chrono::system_clock::time_point end() const;
+
   // The credentials of one address. Needs: the files were read once.
   std::shared_ptr<grpc::ServerCredentials> CredentialsOfAddress();
 
@@ -35,7 +37,7 @@ class ServedCertificates {
 
   const TlsFiles files_;
   FileChanges changes_;
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   TlsBytes bytes_;           // guarded by mutex_
   uint64_t generation_ = 0;  // guarded by mutex_; of bytes_
 };

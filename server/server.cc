@@ -101,13 +101,6 @@ void LogReload(const char* what, const absl::StatusOr<Reload>& reload,
   if (*reload == Reload::kDone) Log(LogLevel::kInfo, absl::StrCat(what, " reloaded"), fields);
 }
 
-std::optional<double> CertificateEndSeconds(const TlsFiles& tls) {
-  if (!tls.enabled()) return std::nullopt;
-  const auto end = CertificateEnd(tls);
-  if (!end.ok()) return 0;
-  return std::chrono::duration<double>(end->time_since_epoch()).count();
-}
-
 google::protobuf::Duration DurationOf(std::chrono::duration<double> time) {
   return wire::DurationMessage(std::chrono::duration_cast<std::chrono::nanoseconds>(time));
 }
@@ -295,7 +288,7 @@ ServerGauges Server::Gauges() const {
   now.max_admitted_bytes = config_.limits.max_bytes;
   now.draining = draining_ ? 1 : 0;
   now.dropped_log_lines = DroppedLogLines();
-  now.certificate_end = CertificateEndSeconds(config_.tls);
+  if (certificates_ != nullptr) now.certificate_end = certificates_->end();
   if (durable_jobs_ != nullptr) now.stored = durable_jobs_->usage();
   return now;
 }

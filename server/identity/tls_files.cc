@@ -22,14 +22,6 @@ absl::Status Bad(const char* flag, const std::string& path, const std::string& w
   return absl::InvalidArgumentError(absl::StrCat(flag, ": ", path, ": ", what));
 }
 
-// Errors: INVALID_ARGUMENT if the file holds no certificates.
-absl::StatusOr<SslContext> ContextOf(const std::string& certificate) {
-  SslContext context(SSL_CTX_new(TLS_server_method()), SSL_CTX_free);
-  if (context == nullptr) return absl::InternalError("OpenSSL cannot create a context");
-  if (SSL_CTX_use_certificate_chain_file(context.get(), certificate.c_str()) == 1) return context;
-  return Bad("--tls-cert", certificate, "cannot be read as a PEM certificate");
-}
-
 absl::Status CheckDates(SSL_CTX& context, const std::string& path) {
   const X509* const certificate = SSL_CTX_get0_certificate(&context);
   if (X509_cmp_current_time(X509_get0_notBefore(certificate)) > 0) {
@@ -41,7 +33,10 @@ absl::Status CheckDates(SSL_CTX& context, const std::string& path) {
   return absl::OkStatus();
 }
 
-absl::Status CheckPair(SSL_CTX& context, const TlsFiles& files) {
+absl::Status LoadPair(SSL_CTX& context, const TlsFiles& files) {
+  if (SSL_CTX_use_certificate_chain_file(&context, files.certificate.c_str()) != 1) {
+    return Bad("--tls-cert", files.certificate, "cannot be read as a PEM certificate");
+  }
   BCCSKEL_RETURN_IF_ERROR(CheckDates(context, files.certificate));
   // Loading a key checks it against the certificate, too.
   if (SSL_CTX_use_PrivateKey_file(&context, files.key.c_str(), SSL_FILETYPE_PEM) == 1 &&
@@ -54,6 +49,28 @@ absl::Status CheckPair(SSL_CTX& context, const TlsFiles& files) {
                        : "cannot be read as a PEM key without a password");
 }
 
+// Errors: as CheckTlsFiles().
+absl::StatusOr<SslContext> ContextOf(const TlsFiles& files) {
+  if (files.certificate.empty() || files.key.empty()) {
+    return absl::InvalidArgumentError("--tls-cert and --tls-key belong together");
+  }
+  SslContext context(SSL_CTX_new(TLS_server_method()), SSL_CTX_free);
+  if (context == nullptr) return absl::InternalError("OpenSSL cannot create a context");
+  BCCSKEL_RETURN_IF_ERROR(LoadPair(*context, files));
+  if (!files.client_ca.empty() &&
+      SSL_CTX_load_verify_file(context.get(), files.client_ca.c_str()) != 1) {
+    return Bad("--tls-client-ca", files.client_ca, "cannot be read as PEM certificates");
+  }
+  return context;
+}
+
+// 1970 if it does not say.
+std::chrono::system_clock::time_point EndOf(const X509* certificate) {
+  std::tm end = {};
+  if (ASN1_TIME_to_tm(X509_get0_notAfter(certificate), &end) != 1) return {};
+  return std::chrono::system_clock::from_time_t(timegm(&end));
+}
+
 std::string BytesIn(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
@@ -62,34 +79,15 @@ std::string BytesIn(const std::string& path) {
 }  // namespace
 
 absl::Status CheckTlsFiles(const TlsFiles& files) {
-  if (!files.enabled()) return absl::OkStatus();
-  if (files.certificate.empty() || files.key.empty()) {
-    return absl::InvalidArgumentError("--tls-cert and --tls-key belong together");
-  }
-  BCCSKEL_ASSIGN_OR_RETURN(const SslContext context, ContextOf(files.certificate));
-  BCCSKEL_RETURN_IF_ERROR(CheckPair(*context, files));
-  if (!files.client_ca.empty() &&
-      SSL_CTX_load_verify_file(context.get(), files.client_ca.c_str()) != 1) {
-    return Bad("--tls-client-ca", files.client_ca, "cannot be read as PEM certificates");
-  }
-  return absl::OkStatus();
+  return files.enabled() ? ContextOf(files).status() : absl::OkStatus();
 }
 
 absl::StatusOr<TlsBytes> ReadTlsFiles(const TlsFiles& files) {
-  BCCSKEL_RETURN_IF_ERROR(CheckTlsFiles(files));
+  BCCSKEL_ASSIGN_OR_RETURN(const SslContext context, ContextOf(files));
   return TlsBytes{.certificate = BytesIn(files.certificate),
                   .key = BytesIn(files.key),
-                  .client_ca = BytesIn(files.client_ca)};
-}
-
-absl::StatusOr<std::chrono::system_clock::time_point> CertificateEnd(const TlsFiles& files) {
-  BCCSKEL_ASSIGN_OR_RETURN(const SslContext context, ContextOf(files.certificate));
-  std::tm end = {};
-  const X509* const certificate = SSL_CTX_get0_certificate(context.get());
-  if (ASN1_TIME_to_tm(X509_get0_notAfter(certificate), &end) != 1) {
-    return Bad("--tls-cert", files.certificate, "does not state when it expires");
-  }
-  return std::chrono::system_clock::from_time_t(timegm(&end));
+                  .client_ca = BytesIn(files.client_ca),
+                  .end = EndOf(SSL_CTX_get0_certificate(context.get()))};
 }
 
 }  // namespace bccskel::server

@@ -26,13 +26,10 @@ absl::Status CheckTlsFiles(const TlsFiles& files);
 // What the files hold, each empty if not configured.
 struct TlsBytes {
   std::string certificate, key, client_ca;
+  std::chrono::system_clock::time_point end;  // when the own certificate expires; 1970 if unstated
 };
 // Errors: as CheckTlsFiles().
 absl::StatusOr<TlsBytes> ReadTlsFiles(const TlsFiles& files);
-
-// When the server's own certificate expires.
-// Errors: INVALID_ARGUMENT if the file cannot be read or is not PEM.
-absl::StatusOr<std::chrono::system_clock::time_point> CertificateEnd(const TlsFiles& files);
 
 }  // namespace bccskel::server
 

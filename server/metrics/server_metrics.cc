@@ -162,9 +162,10 @@ class Seen : public prometheus::Collectable {
     const ServerGauges now = gauges_();
     std::vector<MetricFamily> all = FamiliesOf(now);
     if (now.certificate_end.has_value()) {
-      all.push_back(GaugeNow("bccskel_certificate_not_after_seconds",
-                             "When the served certificate ends, in seconds since 1970",
-                             *now.certificate_end));
+      all.push_back(
+          GaugeNow("bccskel_certificate_not_after_seconds",
+                   "When the served certificate ends, in seconds since 1970",
+                   std::chrono::duration<double>(now.certificate_end->time_since_epoch()).count()));
     }
     if (now.stored.has_value()) Append(FamiliesOf(*now.stored), all);
     Append(FamiliesOf(ReadProcessFigures()), all);

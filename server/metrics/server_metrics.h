@@ -37,9 +37,8 @@ struct ServerGauges {
   uint64_t max_admitted_bytes = 0;
   int draining = 0;  // 1 from the stop signal on
   uint64_t dropped_log_lines = 0;
-  // Expiry of the served certificate in seconds since 1970; 0 if it cannot be read; empty without
-  // TLS.
-  std::optional<double> certificate_end;
+  // Expiry of the served certificate; empty without TLS.
+  std::optional<std::chrono::system_clock::time_point> certificate_end;
   std::optional<DurableUsage> stored;  // empty without a data directory
 };
 

@@ -190,19 +190,27 @@ class TlsTest(unittest.TestCase):
                 refused = submit(server.address, "--timeout", "1", *flags)
                 self.assertNotEqual(refused.returncode, 0, flags)
 
-    def test_the_metrics_say_when_the_certificate_ends_also_after_a_new_one_came(self):
+    def test_the_metrics_say_when_the_served_certificate_ends_whatever_the_files_hold(self):
+        def end_of(pair):
+            decoded = ssl._ssl._test_decode_cert(str(pair.certificate))
+            return ssl.cert_time_to_seconds(decoded["notAfter"])
+
         def end_on_page():
             return float(server_process.metrics(page)["bccskel_certificate_not_after_seconds"])
 
         live, later = self.ours.issue("ending"), self.ours.issue("later", days=30)
+        first_end, later_end = end_of(live), end_of(later)
         with ServerProcess(*self.flags(live), "--metrics-listen", "127.0.0.1:0") as server:
             page = server.line_after("metrics at ")
-            for pair in (live, later):
-                os.replace(pair.certificate, live.certificate)
-                decoded = ssl._ssl._test_decode_cert(str(live.certificate))
-                self.assertEqual(end_on_page(), ssl.cert_time_to_seconds(decoded["notAfter"]))
+            self.assertEqual(end_on_page(), first_end)
+            os.replace(later.certificate, live.certificate)  # without its key
+            server.wait_for_event("certificates not reloaded")
+            self.assertEqual(end_on_page(), first_end)
+            os.replace(later.key, live.key)
+            server.wait_for_event("certificates reloaded")
+            self.assertEqual(end_on_page(), later_end)
             live.certificate.unlink()
-            self.assertEqual(end_on_page(), 0)
+            self.assertEqual(end_on_page(), later_end)
 
     def test_files_that_cannot_work_are_named_before_the_server_listens(self):
         expired = self.ours.issue("old", days=0)
