@@ -20,7 +20,12 @@ namespace {
 
 using Hours = std::chrono::duration<double, std::ratio<3600>>;
 
-std::string Shown(const std::string& text) { return absl::StrCat("\"", text, "\""); }
+// As a string of TOML: in single quotes if it has something to escape, which CLI11 does not
+// unescape.
+std::string Shown(const std::string& text) {
+  const char* const quote = text.find_first_of("\"\\") == std::string::npos ? "\"" : "'";
+  return absl::StrCat(quote, text, quote);
+}
 std::string Shown(int number) { return absl::StrCat(number); }
 std::string Shown(uint64_t number) { return absl::StrCat(number); }
 std::string Shown(std::chrono::milliseconds time) { return absl::StrCat(time.count()); }
@@ -114,10 +119,11 @@ Setting HoursSetting(std::string name, std::chrono::seconds& target, std::string
   const auto parse = [](const std::string& text) -> absl::StatusOr<std::chrono::seconds> {
     constexpr double kYear = 24 * 366, kLeast = 0.01;
     double hours = 0;
-    if (absl::SimpleAtod(text, &hours) && hours >= kLeast && hours <= kYear) {
+    const bool decimal = text.find_first_of("xX") == std::string::npos;
+    if (decimal && absl::SimpleAtod(text, &hours) && hours >= kLeast && hours <= kYear) {
       return std::chrono::round<std::chrono::seconds>(Hours(hours));
     }
-    return Wrong(text, absl::StrCat("a number from ", kLeast, " to ", kYear));
+    return Wrong(text, absl::StrCat("a decimal number from ", kLeast, " to ", kYear));
   };
   return Single(std::move(name), "HOURS", target, std::move(description), parse);
 }

@@ -42,7 +42,7 @@ TEST(HoursSetting, TakesPartsOfAnHourAndShowsWhatItWillReadAgain) {
     ASSERT_TRUE(setting.set({setting.show()}).ok()) << setting.show();
     EXPECT_EQ(kept.count(), seconds) << setting.show();
   }
-  for (const char* text : {"", "0", "0.001", "-1", "9000", "nan", "inf", "1h"}) {
+  for (const char* text : {"", "0", "0.001", "-1", "9000", "nan", "inf", "1h", "0x10", "0X1P4"}) {
     EXPECT_FALSE(setting.set({text}).ok()) << text;
   }
 }

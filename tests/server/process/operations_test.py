@@ -64,7 +64,7 @@ class SettingsTest(unittest.TestCase):
 
     def test_what_is_printed_can_be_read_as_a_file(self):
         printed = check_config("--listen", "127.0.0.1:1", "--listen", "unix:/run/x",
-                               "--max-memory-bytes", "8GB")[1]
+                               "--max-memory-bytes", "8GB", "--data-dir", 'a "quoted" \\path')[1]
         again = check_config(file="\n".join(f"{name} = {value}  # text"
                                             for name, (value, _) in printed.items()))
         self.assertEqual((again[0], again[2]), (0, ""))
@@ -74,17 +74,18 @@ class SettingsTest(unittest.TestCase):
     def test_every_problem_is_named_with_its_value_and_its_limit(self):
         code, _, errors = check_config(
             "--threads", "0", "--data-dir", "", environment={"BCCSKEL_DRAIN_MS": "soon"},
-            file='max-queue = -1\nthredas = 2\ntokens = "/no/such/file"\n[store]\nx = 1\ny = 2\n')
+            file='max-queue = -1\nkeep-uploads = 0x10\nthredas = 2\ntokens = "/no/such/file"\n[store]\nx = 1\ny = 2\n')
         self.assertEqual(code, 2)
         for complaint in ("--threads: 0: must be a number from 1 to 4096",
                           "BCCSKEL_DRAIN_MS: soon: must be a number from 0 to 86400000",
                           "max-queue: -1: must be a number from 0 to 1000000",
+                          "keep-uploads: 0x10: must be a decimal number from 0.01 to 8784",
                           "--data-dir: is empty: give a PATH or leave it out",
                           "thredas: there is no such setting",
                           "[store]: the file must hold no sections; write its settings above",
                           "--tokens: /no/such/file: cannot be read: No such file or directory"):
             self.assertIn(complaint, errors)
-        self.assertEqual(len(errors.splitlines()), 7)
+        self.assertEqual(len(errors.splitlines()), 8)
 
     def test_a_folder_is_no_settings_file(self):
         ended = server_process.run_to_end("--check-config", "--config", tempfile.gettempdir())
