@@ -9,26 +9,8 @@ import time
 
 import harness
 
-# A tetrahedron with outward normals.
-TETRAHEDRON = """OFF
-4 4 0
-0 0 0
-10 0 0
-0 10 0
-0 0 10
-3 0 2 1
-3 0 1 3
-3 0 3 2
-3 1 2 3
-"""
-
 
 class CommandsTest(harness.TestCase):
-    def tetrahedron(self):
-        with open(self.path("tetrahedron.off"), "w") as file:
-            file.write(TETRAHEDRON)
-        return self.path("tetrahedron.off")
-
     def test_a_client_reaches_a_server_that_starts_after_it(self):
         volume = self.generate("ball", 5000)
         for name, words in (("one-call", ("skeletonize", volume, "-o", self.path("late.json"))),
@@ -54,8 +36,7 @@ class CommandsTest(harness.TestCase):
             file.write("endsolid model\n")
         header = b"NRRD0004\ntype: uint8\ndimension: 3\nsizes: 30 9 9\nencoding: raw\n\n"
         for name in ("scan", "cells"):
-            with open(self.path(name + ".nrrd"), "wb") as file:
-                file.write(header + (bytes(5) + bytes([3]) * 20 + bytes(5)) * 81)
+            self.write(name + ".nrrd", header + (bytes(5) + bytes([3]) * 20 + bytes(5)) * 81)
         for command in ("generate", "skeletonize", "labels", "info", "view", "render", "convert",
                         "reconstruct", "voxelize"):
             lines = self.succeed(command, "--help").split("\nExamples:\n")[1].split("\n\n")[0]
@@ -66,12 +47,12 @@ class CommandsTest(harness.TestCase):
                 self.assertEqual(done.returncode, 0, line + "\n" + done.stderr)
 
     def test_voxelize_submit_and_all_outputs(self):
-        mesh, volume = self.tetrahedron(), self.path("v.exr")
+        mesh, volume = self.tetrahedron("tetrahedron.off", 10, 10, 10), self.path("v.exr")
         text = self.succeed("voxelize", mesh, "--points", 20000, "-o", volume)
         self.assertIn("4 vertices, 4 triangles, watertight, genus 0", text)
         self.assertIn("written:     " + volume, text)
         endings = "swc vtp graphml obj csv glb mrk.json json exr bccb svg png html".split()
-        outputs = [word for e in endings for word in ("-o", self.path("s." + e))]
+        outputs = harness.outputs(self.path("s." + e) for e in endings)
         with harness.Server(self.folder) as server:
             text = self.succeed("submit", volume, "--server", server.address, *outputs)
         self.assertIn("topology kept", text)
@@ -80,7 +61,7 @@ class CommandsTest(harness.TestCase):
             self.assertGreater(os.path.getsize(self.path("s." + ending)), 100)
 
     def test_server_and_this_machine_give_the_same_over_any_transport_and_threads(self):
-        mesh = self.tetrahedron()
+        mesh = self.tetrahedron("tetrahedron.off", 10, 10, 10)
         volumes = [self.generate(shape, 30000, shape + ".bccb") for shape in ("tree", "knot")]
         with harness.Server(self.folder) as unix, \
              harness.Server(self.folder, name="second", listen="127.0.0.1:0") as loopback:
@@ -95,7 +76,7 @@ class CommandsTest(harness.TestCase):
     def run_json(self, source, *place):
         """The summary of one run, and a digest of each of its files (to compare long ones fast)."""
         endings = ("json", "swc", "vtp", "graphml", "csv", "glb", "bccb", "svg", "png", "html")
-        outputs = [word for e in endings for word in ("-o", self.path("run." + e))]
+        outputs = harness.outputs(self.path("run." + e) for e in endings)
         grid = ("--points", 20000) if source.endswith(".off") else ()
         summary = json.loads(self.succeed("skeletonize", source, "--json", *grid, *place, *outputs))
         files = {e: (self.folder / ("run." + e)).read_bytes() for e in endings}
@@ -114,12 +95,12 @@ class CommandsTest(harness.TestCase):
         summary = self.summarize(*command)
         self.assertEqual((summary["method"], summary["kind"], summary["distance"]),
                          ("directional", "curve", "chamfer"))
-        options = json.loads((self.folder / "s.json").read_text())["options"]
+        options = self.read_json("s.json")["options"]
         self.assertEqual((options["pruning"], options["pruning_threshold"]), ("significance", 0.45))
         kernel = ("skeletonize", volume, "--local", "-o", self.path("s.json"), "--kind", "kernel")
         self.assertIn("skeleton:  1 point, 1 component, 0 loops, 0 cavities, 1 node, 0 edges\n",
                       self.succeed(*kernel))
-        options = json.loads((self.folder / "s.json").read_text())["options"]
+        options = self.read_json("s.json")["options"]
         self.assertEqual((options["pruning"], options["tips"]), ("none", "as-thinned"))
 
     def test_a_node_that_is_not_there_is_a_wrong_command_line(self):
@@ -154,7 +135,7 @@ class CommandsTest(harness.TestCase):
         self.assertEqual(info["volume"]["topology"], first["certificate"]["skeleton"])
 
     def test_info_describes_meshes_and_volumes(self):
-        mesh = json.loads(self.succeed("info", self.tetrahedron(), "--json"))
+        mesh = json.loads(self.succeed("info", self.tetrahedron("a.off"), "--json"))
         self.assertEqual(mesh["kind"], "mesh")
         self.assertEqual(mesh["mesh"]["genus"], 0)
         self.assertTrue(mesh["mesh"]["watertight"])

@@ -88,9 +88,7 @@ class DocumentsTest(harness.TestCase):
 
     def test_the_readme_names_every_key_of_the_summaries(self):
         readme = (harness.SOURCES / "client/README.md").read_text()
-        with open(self.path("a.off"), "w") as file:
-            file.write("OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
-                       "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n")
+        self.tetrahedron("a.off")
         grid = ("--points", 9999)
         commands = [("voxelize", self.path("a.off"), *grid, "-o", self.path("a.exr")),
                     ("skeletonize", self.path("a.off"), *grid, "--local", "-o", self.path("a.swc")),

@@ -32,13 +32,12 @@ class ExitCodesTest(harness.TestCase):
         self.fail_with(3, "No such file", *self.skeletonize(self.path("none.off"), "--local"))
         self.fail_with(3, "No such file", *self.skeletonize(self.path("none.exr"), "--local"))
         for name in ("a.off", "a.exr", "a.bccb", "a.stl.gz"):
-            pathlib.Path(self.path(name)).write_text("nonsense " * 20)
-            self.fail_with(3, name, *self.skeletonize(self.path(name), "--local"))
-            self.fail_with(3, name, "info", self.path(name))
+            file = self.write(name, "nonsense " * 20)
+            self.fail_with(3, name, *self.skeletonize(file, "--local"))
+            self.fail_with(3, name, "info", file)
         for name in ("a.docx", "a.xlsx"):
-            pathlib.Path(self.path(name)).touch()
             done = self.fail_with(3, "format not supported",
-                                  *self.skeletonize(self.path(name), "--local"))
+                                  *self.skeletonize(self.write(name, ""), "--local"))
             self.assertIn("; save another image as NIfTI or NRRD, which keep its place, or as TIFF, PNG or .npy\n", done.stderr)
         self.fail_with(3, "cannot open 'none': No such file", *self.skeletonize("none", "--local"))
         self.fail_with(3, "cannot open 'none': No such file", "info", "none")
@@ -88,15 +87,13 @@ class ExitCodesTest(harness.TestCase):
         volume = self.generate("tree", 100_000)
         with harness.Server(self.folder, "--max-bricks", "10") as server:
             self.fail_with(7, "10", *self.skeletonize(volume, "--server", server.address))
-        mesh = pathlib.Path(self.path("far.off"))
-        mesh.write_text("OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1e9\n"
-                        "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n")
-        self.fail_with(7, "the limit is", *self.skeletonize(mesh, "--local", "--spacing", 0.01))
+        self.fail_with(7, "the limit is", *self.skeletonize(
+            self.tetrahedron("far.off", z="1e9"), "--local", "--spacing", 0.01))
 
     @unittest.skipIf(harness.SANITIZED, "sanitizers reserve memory of their own")
     def test_7_when_memory_runs_out(self):
         done = self.fail_with(7, "not enough memory\nbccskel: hint: a mesh needs less with",
-                              *self.skeletonize(self.triangle_block(), "--local"), "--points",
+                              *self.skeletonize(self.tetrahedron("a.off"), "--local"), "--points",
                               "4G", preexec_fn=harness.limit_memory(1))
         self.assertNotIn("bad_alloc", done.stderr)
 
@@ -106,7 +103,7 @@ class ExitCodesTest(harness.TestCase):
         for ending in ("swc", "exr", "bccb", "svg"):
             output = self.path("no/such/folder/a." + ending)
             self.fail_with(8, output + missing, "skeletonize", volume, "--local", "-o", output)
-        self.fail_with(8, "a.exr", "voxelize", self.triangle_block(), "--points", 9999, "-o",
+        self.fail_with(8, "a.exr", "voxelize", self.tetrahedron("a.off"), "--points", 9999, "-o",
                        self.path("no/a.exr"))
         self.fail_with(8, "a.exr", "generate", "ball", "-o", self.path("no/a.exr"))
         for words in (("info", volume), ("--help",), ("--version",), ("info", "--help")):
@@ -127,15 +124,8 @@ class ExitCodesTest(harness.TestCase):
 
     def test_130_while_files_are_written(self):
         volume = self.generate("tree", 2_000_000)
-        os.mkfifo(self.path("pipe.json"))
-        client = self.start("skeletonize", volume, "--local", "-o", self.path("pipe.json"),
-                            "-o", self.path("out.swc"))
-        with open(self.path("pipe.json"), "rb") as pipe:
-            pipe.read(1)  # it writes
-            harness.interrupt(client)
-            pipe.read()
-        _, error = client.communicate(timeout=300)
-        self.assertEqual(client.returncode, 130, error)
+        self.interrupted_writing("pipe.json", "skeletonize", volume, "--local", "-o",
+                                 self.path("pipe.json"), "-o", self.path("out.swc"))
         self.assert_no_output()
 
     def interrupted_writing(self, pipe, *words):
@@ -154,8 +144,7 @@ class ExitCodesTest(harness.TestCase):
     def test_130_leaves_the_old_files_and_no_drafts(self):
         result = self.path("tree.json")
         self.succeed("skeletonize", self.generate("tree", 500_000), "--local", "-o", result)
-        old = pathlib.Path(self.path("old.graphml"))
-        old.write_text("old")
+        old = pathlib.Path(self.write("old.graphml", "old"))
         folder = pathlib.Path(self.path("old.precomputed"))
         self.succeed("convert", result, "-o", folder)
         before = (folder / "1").read_bytes()
@@ -171,23 +160,22 @@ class ExitCodesTest(harness.TestCase):
         self.assertEqual(sorted(os.listdir(folder)), ["1", "info"])
 
     def test_130_leaves_whole_files_of_labels(self):
-        image = self.path("labels.nrrd")
         sides = 40
         voxels = bytearray(sides ** 3)
         for at in range(len(voxels)):
             x, y = at % sides, at // sides % sides
             if x % 4 < 2 and y % 4 < 2:
                 voxels[at] = 1 + x // 4 + sides // 4 * (y // 4)
-        pathlib.Path(image).write_bytes(
-            b"NRRD0004\ntype: uint8\ndimension: 3\nsizes: 40 40 40\nencoding: raw\n\n" + voxels)
-        pathlib.Path(self.path("all.vtp")).write_text("old")
+        image = self.write("labels.nrrd", b"NRRD0004\ntype: uint8\ndimension: 3\n"
+                           b"sizes: 40 40 40\nencoding: raw\n\n" + voxels)
+        all_labels = self.write("all.vtp", "old")
         self.interrupted_writing("label-1.json", "labels", image, "--local", "-o",
-                                 self.path("label-{label}.json"), "-o", self.path("all.vtp"))
+                                 self.path("label-{label}.json"), "-o", all_labels)
         for name in os.listdir(self.folder):
             if name.startswith("label-"):
                 self.assertRegex(name, r"^label-[0-9]+\.json$")
-                json.loads(pathlib.Path(self.path(name)).read_text())
-        self.assertEqual(pathlib.Path(self.path("all.vtp")).read_text(), "old")
+                self.read_json(name)
+        self.assertEqual(pathlib.Path(all_labels).read_text(), "old")
 
     def test_without_a_place_it_computes_here_and_says_so(self):
         done = harness.bccskel(*self.skeletonize(self.generate("ball")))
@@ -210,16 +198,9 @@ class ExitCodesTest(harness.TestCase):
 
     def test_3_for_tls_files_that_hold_no_pem(self):
         words = self.skeletonize(self.generate("ball"), "--server", "localhost:1", "--tls-ca")
-        authorities = pathlib.Path(self.path("ca.pem"))
         # Empty, it would turn TLS off.
         for text, message in (("", "ca.pem: is empty"), ("text", "authorities is not PEM")):
-            authorities.write_text(text)
-            self.fail_with(3, message, *words, authorities)
-
-    def triangle_block(self):
-        pathlib.Path(self.path("a.off")).write_text(
-            "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n")
-        return self.path("a.off")
+            self.fail_with(3, message, *words, self.write("ca.pem", text))
 
     def test_130_and_143_cancel_the_job_on_the_server(self):
         volume = self.long_job()

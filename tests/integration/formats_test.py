@@ -80,7 +80,7 @@ class FormatsTest(harness.TestCase):
             folder = cls.folders / shape
             folder.mkdir()
             harness.bccskel("generate", shape, "--points", 10000, "-o", folder / "v.bccb")
-            outputs = [word for e in ENDINGS for word in ("-o", folder / f"s.{e}")]
+            outputs = harness.outputs(folder / f"s.{e}" for e in ENDINGS)
             done = harness.bccskel("skeletonize", folder / "v.bccb", "--local", "--json", *outputs)
             cls.summaries[shape] = json.loads(done.stdout)
 
@@ -88,8 +88,8 @@ class FormatsTest(harness.TestCase):
         """Summary and document of one shape after the other; path() leads to its files."""
         for shape, summary in self.summaries.items():
             self.folder = self.folders / shape
-            with self.subTest(shape=shape), open(self.path("s.json")) as file:
-                yield summary, json.load(file)
+            with self.subTest(shape=shape):
+                yield summary, self.read_json("s.json")
 
     def test_json_agrees_with_the_summary_and_with_itself(self):
         for summary, document in self.each_skeleton():
@@ -226,8 +226,7 @@ class FormatsTest(harness.TestCase):
 
     def test_markups_hold_a_curve_per_branch(self):
         for summary, document in self.each_skeleton():
-            with open(self.path("s.mrk.json")) as file:
-                markups = json.load(file)["markups"]
+            markups = self.read_json("s.mrk.json")["markups"]
             self.assertEqual(len(markups), summary["edges"])
             for markup, edge in zip(markups, document["edges"]):
                 places = [point["position"] for point in markup["controlPoints"]]
@@ -243,7 +242,7 @@ class FormatsTest(harness.TestCase):
                 words = ("skeletonize", self.path("v.bccb"), "--local", "--json", "-o")
                 summary = json.loads(self.succeed(*words, self.path("s.precomputed/")))
                 self.assertIn("does not state its unit", summary["outputs"][0]["note"])
-                document = json.loads((self.folder / "s.json").read_text())
+                document = self.read_json("s.json")
                 vertices, edges, radii = read_precomputed(self.path("s.precomputed"), 1)
                 betti = document["certificate"]["skeleton"]
                 pieces = pieces_of(len(vertices), edges)
@@ -261,7 +260,7 @@ class FormatsTest(harness.TestCase):
         endings = ("swc", "vtp", "graphml", "obj", "csv", "mrk.json", "glb")
         for shape in SHAPES:
             self.folder = self.folders / shape
-            outputs = [word for e in endings for word in ("-o", self.path(f"c.{e}"))]
+            outputs = harness.outputs(self.path(f"c.{e}") for e in endings)
             self.succeed("convert", self.path("s.json"), *outputs)
             for ending in endings:
                 with self.subTest(shape=shape, ending=ending):
@@ -284,8 +283,8 @@ class FormatsTest(harness.TestCase):
                 ("--method", "directional", "--distance", "chamfer"))):
             root = "thickest-end" if number < 2 else "thickest-node"
             options = ("--root", root, "--swc-step", 0.25)
-            theirs = [w for e in (*endings, "json") for w in ("-o", self.path(f"a{number}.{e}"))]
-            mine = [w for e in endings for w in ("-o", self.path(f"b{number}.{e}"))]
+            theirs = harness.outputs(self.path(f"a{number}.{e}") for e in (*endings, "json"))
+            mine = harness.outputs(self.path(f"b{number}.{e}") for e in endings)
             # Filling cavities warns.
             made = harness.bccskel("skeletonize", self.path("v.nrrd"), "--local", *words, *options,
                                    *theirs, "-o", self.path(f"a{number}.precomputed"))
@@ -331,10 +330,9 @@ class FormatsTest(harness.TestCase):
             self.folder = self.folders / shape
             result = self.path("s.json")
             endings = ("json", "svg", "swc", "png", "html")
-            summary = json.loads(self.succeed(
-                "convert", result, "--json", *(w for e in endings for w in ("-o", self.path(f"d.{e}")))))
-            self.assertEqual([file["path"] for file in summary["outputs"]],
-                             [self.path(f"d.{e}") for e in endings])
+            made = [self.path(f"d.{e}") for e in endings]
+            summary = json.loads(self.succeed("convert", result, "--json", *harness.outputs(made)))
+            self.assertEqual([file["path"] for file in summary["outputs"]], made)
             self.succeed("view", result, "-o", self.path("e.html"))
             for ending in ("svg", "png"):
                 drawn = json.loads(self.succeed("render", result, "--json", "-o", self.path(f"e.{ending}")))
@@ -365,7 +363,7 @@ class FormatsTest(harness.TestCase):
         self.succeed("skeletonize", self.path("v.nrrd"), "--local", "--label", 1,
                      "-o", self.path("w.precomputed"), "-o", self.path("w.json"))
         vertices, edges, radii = read_precomputed(self.path("w.precomputed"), 1)
-        nodes = json.loads((self.folder / "w.json").read_text())["nodes"]
+        nodes = self.read_json("w.json")["nodes"]
         self.assertGreater(len(edges), 0)
         for vertex, radius, node in zip(vertices, radii, nodes):
             self.assertLess(math.dist(vertex, [1000 * c for c in node["position"]]), 0.01)
@@ -397,10 +395,10 @@ class FormatsTest(harness.TestCase):
             "space directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\n"
             "space units: \"mm\" \"mm\" \"mm\"\nencoding: raw\ndata file: v.raw\n")
         (self.folder / "v.raw").write_bytes(bytes([1]) * 107 + bytes(1))
-        outputs = [word for e in ("json", "swc", "graphml", "vtp", "mrk.json")
-                   for word in ("-o", self.path(f"w.{e}"))]
+        outputs = harness.outputs(self.path(f"w.{e}")
+                                  for e in ("json", "swc", "graphml", "vtp", "mrk.json"))
         self.succeed("skeletonize", self.path("v.nhdr"), "--local", *outputs)
-        document = json.loads((self.folder / "w.json").read_text())
+        document = self.read_json("w.json")
         self.assertEqual((document["world"], document["unit"]), ("RAS", "mm"))
         self.assertIn("# world: RAS\n# unit: mm\n", (self.folder / "w.swc").read_text())
         graph = networkx.read_graphml(self.path("w.graphml")).graph
@@ -409,7 +407,7 @@ class FormatsTest(harness.TestCase):
                  for array in xml.etree.ElementTree.parse(self.path("w.vtp")).iterfind(
                      ".//FieldData/DataArray")}
         self.assertEqual((facts["world"], facts["unit"]), ("RAS", "mm"))
-        markups = json.loads((self.folder / "w.mrk.json").read_text())["markups"]
+        markups = self.read_json("w.mrk.json")["markups"]
         self.assertEqual(markups[0]["coordinateSystem"], "RAS")
 
     def test_swc_says_which_loops_it_cut(self):
@@ -426,8 +424,7 @@ class FormatsTest(harness.TestCase):
             stated = sum(data.get("loops", 0) for _, data in graph.nodes(data=True))
             cavities = sum(data.get("cavities", 0) for _, data in graph.nodes(data=True))
             loops = graph.number_of_edges() - graph.number_of_nodes() + components + stated
-            self.assertEqual((components, loops, cavities),
-                             (betti["components"], betti["loops"], betti["cavities"]))
+            self.assertEqual((components, loops, cavities), harness.topology(betti))
             for node in document["nodes"]:
                 data = graph.nodes[f"n{node['id']}"]
                 self.assertEqual([data["x"], data["y"], data["z"]], node["position"])

@@ -109,6 +109,20 @@ class TestCase(unittest.TestCase):
     def path(self, name):
         return str(self.folder / name)
 
+    def write(self, name, content):
+        """A file of this text or these bytes."""
+        content = content.encode() if isinstance(content, str) else content
+        (self.folder / name).write_bytes(content)
+        return self.path(name)
+
+    def tetrahedron(self, name, x=1, y=1, z=1):
+        """A mesh with the origin and a corner on each axis."""
+        return self.write(name, f"OFF\n4 4 0\n0 0 0\n{x} 0 0\n0 {y} 0\n0 0 {z}\n"
+                                "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n")
+
+    def read_json(self, name):
+        return json.loads((self.folder / name).read_text())
+
     def succeed(self, *words):
         """The output of a command that must succeed, quietly."""
         done = bccskel(*words)
@@ -136,6 +150,16 @@ class TestCase(unittest.TestCase):
     def generate(self, shape, points=20000, name="object.bccb"):
         self.succeed("generate", shape, "--points", points, "-o", self.path(name))
         return self.path(name)
+
+
+def outputs(paths):
+    """Words of a command that writes these files."""
+    return [word for path in paths for word in ("-o", path)]
+
+
+def topology(betti):
+    """(components, loops, cavities)."""
+    return betti["components"], betti["loops"], betti["cavities"]
 
 
 def without_times(summary):

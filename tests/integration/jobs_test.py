@@ -44,9 +44,7 @@ class JobsTest(harness.TestCase):
                 {"job": job, "outputs": [{"path": self.path("f.json"), "note": ""}]})
             self.succeed("skeletonize", self.path("object.bccb"), "--local", "--json",
                          "-o", self.path("l.json"))
-            fetched, local = (json.loads(pathlib.Path(self.path(name)).read_text())
-                              for name in ("f.json", "l.json"))
-            self.assertEqual(fetched["sha256"], local["sha256"])
+            self.assertEqual(self.read_json("f.json")["sha256"], self.read_json("l.json")["sha256"])
             self.assertEqual(self.jobs(server)[job]["state"], "succeeded")
             self.assertIn(job, self.succeed("jobs", "--server", server.address))
             self.succeed("delete", job, "--server", server.address)
@@ -63,8 +61,7 @@ class JobsTest(harness.TestCase):
                              f"{job} succeeded\n")
             self.succeed("fetch", job, "--server", server.address, "-o", self.path("there.json"))
         harness.bccskel("skeletonize", nothing, "--local", "-o", self.path("here.json"))
-        there, here = (json.loads((self.folder / name).read_text())
-                       for name in ("there.json", "here.json"))
+        there, here = self.read_json("there.json"), self.read_json("here.json")
         self.assertEqual((there["nodes"], there["sha256"]), ([], here["sha256"]))
 
     def test_a_result_is_fetched_in_every_format(self):
@@ -74,10 +71,10 @@ class JobsTest(harness.TestCase):
             local, fetched = ([self.path(f"{which}.{ending}") for ending in endings]
                               for which in ("local", "fetched"))
             self.succeed("skeletonize", self.path("object.bccb"), "--local",
-                         *(word for path in local for word in ("-o", path)))
+                         *harness.outputs(local))
             self.succeed("fetch", job, "--server", server.address, "--object",
                          self.path("object.bccb"),
-                         *(word for path in fetched for word in ("-o", path)))
+                         *harness.outputs(fetched))
             for mine, theirs in zip(local, fetched):
                 if not mine.endswith((".json", ".html")):  # those say how long it took
                     self.assertEqual(pathlib.Path(mine).read_bytes(),

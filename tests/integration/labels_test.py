@@ -23,10 +23,6 @@ def touching_labels():
     return labels
 
 
-def outputs(paths):
-    return [word for path in paths for word in ("-o", path)]
-
-
 class LabelsTest(harness.TestCase):
     def setUp(self):
         super().setUp()
@@ -65,8 +61,8 @@ class LabelsTest(harness.TestCase):
             for words in ((), chosen):
                 here, there = ([self.path(f"{where}.{ending}") for ending in ("json", "csv", "glb")]
                                for where in ("here", "there"))
-                local = self.labels(*words, *outputs(here))
-                remote = self.labels(*words, *outputs(there), "--server", server.address)
+                local = self.labels(*words, *harness.outputs(here))
+                remote = self.labels(*words, *harness.outputs(there), "--server", server.address)
                 self.assertEqual(local["labels"], remote["labels"])
                 self.assertEqual(local["left_out"], remote["left_out"])
                 for mine, theirs in zip(here[1:], there[1:]):  # the JSON says how long it took
@@ -126,8 +122,7 @@ class LabelsTest(harness.TestCase):
             self.assertEqual((done.returncode, done.stderr), (0, ""))
 
     def test_what_is_no_image_has_no_labels(self):
-        mesh = pathlib.Path(self.path("a.off"))
-        mesh.write_text("OFF\n0 0 0\n")
+        mesh = self.write("a.off", "OFF\n0 0 0\n")
         self.fail_with(3, "a.off: is a mesh, which has no labels; bccskel skeletonize takes it",
                        "labels", mesh, "-o", self.path("a.csv"))
         self.fail_with(3, "is a volume, which has no labels; bccskel skeletonize takes it",
@@ -151,7 +146,7 @@ class LabelsTest(harness.TestCase):
 
     def test_files_of_all_labels_say_which_is_which(self):
         names = [self.path(name) for name in ("all.vtp", "all.graphml", "all.json")]
-        self.labels(*(word for name in names for word in ("-o", name)))
+        self.labels(*harness.outputs(names))
         everything = {1, 3, 8, 12, HUGE}
         root = xml.etree.ElementTree.parse(names[0])
         column = root.find(".//CellData/DataArray[@Name='label']").text.split()
@@ -162,8 +157,7 @@ class LabelsTest(harness.TestCase):
         self.assertEqual({int(label) for _, label in graph.nodes(data="label")}, everything)
         # A long of GraphML, 64 bits with a sign, would be too short.
         self.assertIn('attr.name="label" attr.type="string"', pathlib.Path(names[1]).read_text())
-        with open(names[2], encoding="utf-8") as file:
-            document = json.load(file)
+        document = self.read_json("all.json")
         self.assertEqual([entry["label"] for entry in document["labels"]], sorted(everything))
         for entry in document["labels"]:
             self.assertGreater(len(entry["skeleton"]["nodes"]), 0)

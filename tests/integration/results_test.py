@@ -1,7 +1,6 @@
 """Commands that read a result and its object again: what they make of both."""
 
 import json
-import unittest
 
 import numpy as np
 
@@ -33,7 +32,7 @@ class ResultsTest(harness.TestCase):
         done = harness.bccskel("skeletonize", volume, "--local", *options,
                                "-o", self.path("s.json"))
         self.assertEqual(done.returncode, 0, done.stderr)
-        return json.loads((self.folder / "s.json").read_text())
+        return self.read_json("s.json")
 
     def reconstruct(self, *options):
         """The JSON summary; nothing is warned of."""
@@ -67,7 +66,7 @@ class ResultsTest(harness.TestCase):
             done = harness.bccskel("submit", volume, "--server", server.address, "--kind",
                                    "surface", "-o", self.path("there.json"))
         self.assertEqual(done.returncode, 0, done.stderr)
-        there = json.loads((self.folder / "there.json").read_text())
+        there = self.read_json("there.json")
         self.assertEqual(harness.without_times(there), harness.without_times(here))
 
     def test_the_object_is_prepared_as_the_result_says(self):
@@ -83,8 +82,7 @@ class ResultsTest(harness.TestCase):
                          "-o", self.path("x." + ending))
 
     def test_a_mesh_is_filled_on_the_grid_of_the_result(self):
-        (self.folder / "box.off").write_text(BOX)
-        mesh = self.path("box.off")
+        mesh = self.write("box.off", BOX)
         for grid in (("--points", 3000), ("--spacing", 0.23)):
             self.skeletonize(mesh, *grid)
             summary = self.reconstruct("--object", mesh)  # which would warn of another number
@@ -101,7 +99,7 @@ class ResultsTest(harness.TestCase):
                 here = self.skeletonize(source, "--border", "continues")
                 self.succeed(command, source, "--border", "continues", "--server", server.address,
                              "-o", self.path("there.json"))
-                there = json.loads((self.folder / "there.json").read_text())
+                there = self.read_json("there.json")
                 self.assertEqual(harness.without_times(there), harness.without_times(here))
         summary = self.reconstruct("--object", rod)
         self.assertGreater(summary["jaccard"], 0.9)
@@ -129,7 +127,7 @@ class ResultsTest(harness.TestCase):
         with harness.Server(self.folder) as server:
             self.succeed("skeletonize", disc, "--server", server.address, "-o",
                          self.path("there.json"))
-        there = json.loads((self.folder / "there.json").read_text())
+        there = self.read_json("there.json")
         self.assertEqual(harness.without_times(there), harness.without_times(here))
         self.reconstruct("--object", disc)
         self.succeed("view", self.path("s.json"), "--object", disc, "-o", self.path("x.html"))
@@ -144,12 +142,9 @@ class ResultsTest(harness.TestCase):
 
     def test_another_object_is_refused(self):
         self.skeletonize(self.generate("tree"))
-        (self.folder / "box.off").write_text(BOX)
-        (self.folder / "thin.off").write_text(  # between the points of the grid
-            "OFF\n4 4 0\n0 0 0\n1e-3 0 0\n0 1e-3 0\n0 0 1e-3\n"
-            "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n")
-        others = [(self.path("box.off"), "box along the axis"),  # elsewhere
-                  (self.path("thin.off"), "it has no point on the result's grid"),
+        thin = self.tetrahedron("thin.off", 1e-3, 1e-3, 1e-3)  # between the points of the grid
+        others = [(self.write("box.off", BOX), "box along the axis"),  # elsewhere
+                  (thin, "it has no point on the result's grid"),
                   (self.generate("ball", 5000, "small.bccb"), "is not what"),
                   (self.generate("ball", 5000000, "large.bccb"), "its volume is")]
         for other, why in others:
@@ -162,10 +157,9 @@ class ResultsTest(harness.TestCase):
                     self.assertFalse((self.folder / output).exists())
 
     def test_the_same_object_in_another_grid_is_warned_of(self):
-        (self.folder / "box.off").write_text(BOX)
-        self.skeletonize(self.path("box.off"), "--points", 3000)
-        done = harness.bccskel("reconstruct", self.path("s.json"), "--object",
-                               self.path("box.off"), "--points", 20000, "-o",
+        box = self.write("box.off", BOX)
+        self.skeletonize(box, "--points", 3000)
+        done = harness.bccskel("reconstruct", self.path("s.json"), "--object", box, "--points", 20000, "-o",
                                self.path("x.bccb"), "--json")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertRegex(done.stderr, r"warning: .*box.off: has [\d,]+ points, but .*s.json was")

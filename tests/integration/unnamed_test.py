@@ -16,10 +16,6 @@ SAVE_IT = "cannot be read twice; save it to a file first"
 
 
 class UnnamedTest(harness.TestCase):
-    def write(self, name, content):
-        (self.folder / name).write_bytes(content)
-        return self.path(name)
-
     def loops(self, path):
         return self.summarize("skeletonize", path, "--local", "-o",
                               self.path("s.vtp"))["certificate"]["skeleton"]["loops"]

@@ -5,10 +5,10 @@ import struct
 
 import harness
 import view_samples
-from view_tools import ToolsTestCase
+from view_test import PageTestCase
 
 
-class SavingTest(ToolsTestCase):
+class SavingTest(PageTestCase):
     def saved(self, button, ending):
         downloads = self.folder / "downloads"
         self.browser.send("Browser.setDownloadBehavior", session=None, behavior="allow",
@@ -60,7 +60,7 @@ class SavingTest(ToolsTestCase):
         self.assertEqual(page.run("[canvas.width, canvas.height]"), [width, height])
 
 
-class FramesTest(ToolsTestCase):
+class FramesTest(PageTestCase):
     def test_nothing_is_drawn_while_nothing_moves_and_few_calls_draw_thousands(self):
         page = self.open_sample(view_samples.forest(1700, columns=40))
         page.settle()
@@ -75,8 +75,6 @@ class FramesTest(ToolsTestCase):
         self.assertGreater(page.run("frames_"), 0)
         self.assertLess(page.run("renderer.info.render.calls"), 12)
 
-
-del ToolsTestCase  # it has no tests of its own
 
 if __name__ == "__main__":
     harness.main()

@@ -35,7 +35,7 @@ class PageTestCase(harness.TestCase):
         summary = json.loads(self.succeed("view", self.path("s.json"), "--object", volume,
                                           "-o", self.path("s.html"), "--json"))
         self.assertEqual(summary["bytes"], os.path.getsize(self.path("s.html")))
-        return json.loads((self.folder / "s.json").read_text())
+        return self.read_json("s.json")
 
     def open_sample(self, sample, address=""):
         view_samples.write(self.folder / "s.json", sample)
@@ -55,6 +55,23 @@ class PageTestCase(harness.TestCase):
           slider.dispatchEvent(new Event("input", {{ bubbles: true }}));
         }})()""")
         self.browser.settle()
+
+    def place(self, edge):
+        """Where the middle of an edge is in the window."""
+        return self.browser.run(f"""(() => {{
+          const at = {{}}, middle = (curveStart[{edge}] + curveStart[{edge} + 1]) >> 1;
+          projector()(...curvePoint(middle).toArray(), at);
+          const box = canvas.getBoundingClientRect();
+          return [box.x + at.x, box.y + at.y];
+        }})()""")
+
+    def pins(self):
+        return self.browser.run(
+            "[...document.querySelectorAll('#pinned .go')].map((b) => b.textContent)")
+
+    def column(self, name):
+        return self.browser.run(f"""[...document.querySelectorAll("#body .{name}")]
+            .map((cell) => cell.textContent)""")
 
 
 class ViewTest(PageTestCase):
@@ -133,7 +150,7 @@ class ViewTest(PageTestCase):
                     after = levels[step] if step < len(levels) else levels[-1] + 1
                     self.summarize("skeletonize", volume, "--local", "--pruning-threshold",
                                    (levels[step - 1] + after) / 2, "-o", self.path("pruned.json"))
-                    pruned = json.loads((self.folder / "pruned.json").read_text())
+                    pruned = self.read_json("pruned.json")
                     self.slide("prune", step)
                     nodes, branches = map(int, re.match(
                         r"(\d+) nodes?, (\d+) branch", page.text("#counts")).groups())
@@ -160,7 +177,7 @@ class ViewTest(PageTestCase):
             with self.subTest(file=file.name, threshold=threshold):
                 self.summarize("skeletonize", file, *options, "--local",
                                "--pruning-threshold", threshold, "-o", self.path("pruned.json"))
-                pruned = json.loads((self.folder / "pruned.json").read_text())
+                pruned = self.read_json("pruned.json")
                 self.slide("prune", step)
                 self.assertEqual(page.run("shown.nodes.map(shown.kindOf).sort()"),
                                  sorted(n["kind"] for n in pruned["nodes"]))

@@ -8,12 +8,12 @@ import browser
 import harness
 import numpy
 import view_samples
-from view_tools import ToolsTestCase
+from view_test import PageTestCase
 
 EMPTY = (300, 700)  # a place of the window where nothing is drawn
 
 
-class PinTest(ToolsTestCase):
+class PinTest(PageTestCase):
     def tip(self):
         return dict(self.browser.run("""[...document.querySelectorAll("#tip tr")]
             .map((row) => [...row.children].map((cell) => cell.textContent))"""))
@@ -102,7 +102,7 @@ class PinTest(ToolsTestCase):
         self.assertEqual(self.pins(), ["1", "2"])
 
 
-class TableTest(ToolsTestCase):
+class TableTest(PageTestCase):
     def test_columns_sort_both_ways(self):
         page = self.open_sample(view_samples.forest(4))
         page.click("#dock-toggle")
@@ -218,7 +218,7 @@ class TableTest(ToolsTestCase):
         self.assertEqual({rows[0]["node_id_src"], rows[0]["node_id_dst"]}, {"1", "2"})
 
 
-class ViewpointTest(ToolsTestCase):
+class ViewpointTest(PageTestCase):
     def seen(self):
         """The direction in the world from what is seen to the viewer."""
         return self.browser.run("""[8, 9, 10].map((n) => Math.round(
@@ -358,8 +358,6 @@ class ViewpointTest(ToolsTestCase):
         self.assertEqual(self.browser.text("#counts"), "8 nodes, 6 branches, length 20 mm")
         self.assertEqual(self.browser.run("[pins, cut.axis]"), [[], None])
 
-
-del ToolsTestCase  # it has no tests of its own
 
 if __name__ == "__main__":
     harness.main()
