@@ -1,19 +1,12 @@
 #include "client/durable_client.h"
 
-#include <random>
 #include <utility>
 
-#include "absl/strings/str_format.h"
 #include "client/skeleton_reading.h"
+#include "core/digest/random_id.h"
 #include "core/exec/status_macros.h"
 
 namespace bccskel::client {
-std::string RandomId() {
-  std::random_device device;
-  std::string id;
-  for (int n = 0; n < 4; ++n) absl::StrAppendFormat(&id, "%08x", device());
-  return id;
-}
 
 const char* NameOf(JobState state) {
   switch (state) {

@@ -107,9 +107,6 @@ inline constexpr RetryPolicy kOutlastRestart = {.max_attempts = 30};
 // Over gRPC. Errors: as CheckEndpoint().
 absl::StatusOr<std::unique_ptr<DurableStub>> MakeGrpcDurableStub(const Endpoint& endpoint);
 
-// 32 random hexadecimal digits.
-std::string RandomId();
-
 }  // namespace bccskel::client
 
 #endif  // BCCSKEL_CLIENT_DURABLE_CLIENT_H_

@@ -4,10 +4,10 @@
 #include <future>
 
 #include "absl/strings/str_cat.h"
+#include "core/digest/random_id.h"
 #include "core/exec/status_macros.h"
 #include "server/admission/memory_estimate.h"
 #include "server/errors/call_error.h"
-#include "server/jobs/names.h"
 #include "server/store/job_store.h"
 
 namespace bccskel::server {

@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "core/digest/random_id.h"
 #include "core/exec/status_macros.h"
 #include "server/errors/call_error.h"
-#include "server/jobs/names.h"
 
 namespace bccskel::server {
 namespace {

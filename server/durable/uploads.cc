@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "core/digest/random_id.h"
 #include "core/exec/status_macros.h"
 #include "server/durable/durable_jobs.h"
 #include "server/errors/call_error.h"

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <iterator>
-#include <random>
 
 #include "absl/strings/ascii.h"
 #include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
+#include "core/digest/random_id.h"
 #include "core/digest/sha256.h"
 #include "server/errors/call_error.h"
 
@@ -22,14 +22,6 @@ bool IsNameCharacter(char c) {
 }
 
 }  // namespace
-
-std::string RandomId() {
-  constexpr int kWords = 4;
-  thread_local std::random_device device;  // opening one takes longer than the rest
-  std::string id;
-  for (int n = 0; n < kWords; ++n) absl::StrAppend(&id, absl::Hex(device(), absl::kZeroPad8));
-  return id;
-}
 
 std::string RandomName(const std::string& kind) { return absl::StrCat(kind, "/", RandomId()); }
 

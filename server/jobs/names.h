@@ -8,10 +8,8 @@
 
 namespace bccskel::server {
 
-// 32 hexadecimal digits.
-std::string RandomId();
-// `kind`/ and a RandomId(): jobs/9f86d081.... Names cannot be guessed and do not reveal how many
-// others exist.
+// `kind`/ and a RandomId() (core/digest): jobs/9f86d081.... Names cannot be guessed and do not
+// reveal how many others exist.
 std::string RandomName(const std::string& kind);
 
 // Derived from the declaration and the bytes: equal volumes have equal names.
