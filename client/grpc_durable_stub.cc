@@ -50,7 +50,23 @@ v1::UploadVolumeRequest FinishRequest(const EncodedVolume& volume) {
   return request;
 }
 
+template <typename Request>
+Request RequestAbout(const std::string& job) {
+  Request request;
+  request.set_job(job);
+  return request;
+}
+
+template <typename Response>
+absl::StatusOr<DurableJob> JobIn(const absl::StatusOr<Response>& response) {
+  if (!response.ok()) return response.status();
+  return FromMessage(response->job());
+}
+
 class GrpcDurableStub final : public DurableStub {
+  using Volumes = v1::VolumeService::StubInterface;
+  using Jobs = v1::JobService::StubInterface;
+
  public:
   explicit GrpcDurableStub(const std::shared_ptr<grpc::Channel>& channel)
       : channel_(channel),
@@ -63,10 +79,8 @@ class GrpcDurableStub final : public DurableStub {
     v1::VolumeKey& key = *request.add_volumes();
     *key.mutable_declaration() = DeclarationOf(volume);
     key.set_blob_sha256(digest.bytes.data(), digest.bytes.size());
-    v1::FindMissingVolumesResponse response;
-    BCCSKEL_RETURN_IF_ERROR(Call(deadline, [&](grpc::ClientContext& context) {
-      return volumes_->FindMissingVolumes(&context, request, &response);
-    }));
+    BCCSKEL_ASSIGN_OR_RETURN(const v1::FindMissingVolumesResponse response,
+                             Ask(*volumes_, &Volumes::FindMissingVolumes, request, deadline));
     if (response.volumes_size() == 1) return response.volumes(0);
     return absl::DataLossError("the server's answer is for a different number of volumes");
   }
@@ -84,21 +98,11 @@ class GrpcDurableStub final : public DurableStub {
   }
 
   absl::StatusOr<DurableJob> CreateJob(const NewJob& job, Deadline deadline) override {
-    v1::CreateJobResponse response;
-    BCCSKEL_RETURN_IF_ERROR(Call(deadline, [&](grpc::ClientContext& context) {
-      return jobs_->CreateJob(&context, ToMessage(job), &response);
-    }));
-    return FromMessage(response.job());
+    return JobIn(Ask(*jobs_, &Jobs::CreateJob, ToMessage(job), deadline));
   }
 
   absl::StatusOr<DurableJob> GetJob(const std::string& job, Deadline deadline) override {
-    v1::GetJobRequest request;
-    request.set_job(job);
-    v1::GetJobResponse response;
-    BCCSKEL_RETURN_IF_ERROR(Call(deadline, [&](grpc::ClientContext& context) {
-      return jobs_->GetJob(&context, request, &response);
-    }));
-    return FromMessage(response.job());
+    return JobIn(Ask(*jobs_, &Jobs::GetJob, RequestAbout<v1::GetJobRequest>(job), deadline));
   }
 
   absl::StatusOr<JobPage> ListJobs(int page_size, const std::string& page_token,
@@ -106,10 +110,8 @@ class GrpcDurableStub final : public DurableStub {
     v1::ListJobsRequest request;
     request.set_page_size(page_size);
     request.set_page_token(page_token);
-    v1::ListJobsResponse response;
-    BCCSKEL_RETURN_IF_ERROR(Call(deadline, [&](grpc::ClientContext& context) {
-      return jobs_->ListJobs(&context, request, &response);
-    }));
+    BCCSKEL_ASSIGN_OR_RETURN(const v1::ListJobsResponse response,
+                             Ask(*jobs_, &Jobs::ListJobs, request, deadline));
     JobPage page;
     for (const v1::Job& job : response.jobs()) page.jobs.push_back(FromMessage(job));
     page.next_token = response.next_page_token();
@@ -117,29 +119,18 @@ class GrpcDurableStub final : public DurableStub {
   }
 
   absl::StatusOr<DurableJob> CancelJob(const std::string& job, Deadline deadline) override {
-    v1::CancelJobRequest request;
-    request.set_job(job);
-    v1::CancelJobResponse response;
-    BCCSKEL_RETURN_IF_ERROR(Call(deadline, [&](grpc::ClientContext& context) {
-      return jobs_->CancelJob(&context, request, &response);
-    }));
-    return FromMessage(response.job());
+    return JobIn(Ask(*jobs_, &Jobs::CancelJob, RequestAbout<v1::CancelJobRequest>(job), deadline));
   }
 
   absl::Status DeleteJob(const std::string& job, Deadline deadline) override {
-    v1::DeleteJobRequest request;
-    request.set_job(job);
-    v1::DeleteJobResponse response;
-    return Call(deadline, [&](grpc::ClientContext& context) {
-      return jobs_->DeleteJob(&context, request, &response);
-    });
+    return Ask(*jobs_, &Jobs::DeleteJob, RequestAbout<v1::DeleteJobRequest>(job), deadline)
+        .status();
   }
 
   absl::Status WatchJob(const std::string& job, uint64_t after_sequence,
                         const EventConsumer& consume, const std::stop_token& stop,
                         Deadline deadline) override {
-    v1::WatchJobRequest request;
-    request.set_job(job);
+    auto request = RequestAbout<v1::WatchJobRequest>(job);
     request.set_after_sequence(after_sequence);
     return Try(stop, deadline, [&](grpc::ClientContext& context) {
       const auto stream = jobs_->WatchJob(&context, request);
@@ -153,8 +144,7 @@ class GrpcDurableStub final : public DurableStub {
 
   absl::Status ReadSkeleton(const std::string& job, SkeletonReading& reading,
                             const std::stop_token& stop, Deadline deadline) override {
-    v1::ReadSkeletonRequest request;
-    request.set_job(job);
+    auto request = RequestAbout<v1::ReadSkeletonRequest>(job);
     request.set_piece_index(reading.pieces());
     return Try(stop, deadline, [&](grpc::ClientContext& context) {
       const auto stream = jobs_->ReadSkeleton(&context, request);
@@ -173,23 +163,27 @@ class GrpcDurableStub final : public DurableStub {
       -> decltype(call(std::declval<grpc::ClientContext&>())) {
     return WithoutForeignCancel(Attempt(*channel_, stop, deadline, std::move(call)), stop);
   }
-  template <typename Do>
-  absl::Status Call(Deadline deadline, Do call) {
-    return Try({}, deadline,
-               [&](grpc::ClientContext& context) { return FromGrpcStatus(call(context)); });
+  // A call with one request and one response.
+  template <typename Stub, typename Request, typename Response>
+  absl::StatusOr<Response> Ask(Stub& stub,
+                               grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&,
+                                                            Response*),
+                               const Request& request, Deadline deadline) {
+    return Try({}, deadline, [&](grpc::ClientContext& context) -> absl::StatusOr<Response> {
+      Response response;
+      BCCSKEL_RETURN_IF_ERROR(FromGrpcStatus((stub.*method)(&context, request, &response)));
+      return response;
+    });
   }
 
   // 0 for an upload that the server does not know.
   absl::StatusOr<uint64_t> CommittedSize(const std::string& upload, Deadline deadline) {
     v1::GetUploadStatusRequest request;
     request.set_upload(upload);
-    v1::GetUploadStatusResponse response;
-    const absl::Status status = Call(deadline, [&](grpc::ClientContext& context) {
-      return volumes_->GetUploadStatus(&context, request, &response);
-    });
-    if (absl::IsNotFound(status)) return 0;
-    if (!status.ok()) return status;
-    return response.upload().committed_size();
+    const auto response = Ask(*volumes_, &Volumes::GetUploadStatus, request, deadline);
+    if (absl::IsNotFound(response.status())) return 0;
+    if (!response.ok()) return response.status();
+    return response->upload().committed_size();
   }
 
   absl::StatusOr<std::string> Send(grpc::ClientContext& context, const std::string& upload,
@@ -208,8 +202,8 @@ class GrpcDurableStub final : public DurableStub {
   }
 
   const std::shared_ptr<grpc::Channel> channel_;
-  const std::unique_ptr<v1::VolumeService::StubInterface> volumes_;
-  const std::unique_ptr<v1::JobService::StubInterface> jobs_;
+  const std::unique_ptr<Volumes> volumes_;
+  const std::unique_ptr<Jobs> jobs_;
 };
 
 }  // namespace
