@@ -46,8 +46,7 @@ DeclaredVolume MaskOf(Inside inside) {
 
 TEST(CubicMask, BecomesASkeletonWithTheMasksTopologyInTheWorldOfItsVoxels) {
   const auto server = test::StartServer();
-  const auto replies =
-      Converse(test::ConnectTo(server->address()), RequestsFor(MaskOf(IsInFrame), 17));
+  const auto replies = Converse(*server, RequestsFor(MaskOf(IsInFrame), 17));
   const auto skeleton = SkeletonOf(replies);
   ASSERT_TRUE(skeleton.ok()) << replies.status << ' ' << skeleton.status();
   const BettiNumbers frame = {1, 5, 0};
@@ -71,8 +70,7 @@ TEST(CubicMask, IsReadInTheAdjacencyAskedFor) {
   for (const auto& [adjacency, components] :
        {std::pair(v1::MASK_ADJACENCY_OBJECT_26, 1), std::pair(v1::MASK_ADJACENCY_OBJECT_6, 2)}) {
     mask.declaration.set_mask_adjacency(adjacency);
-    const auto skeleton =
-        SkeletonOf(Converse(test::ConnectTo(server->address()), RequestsFor(mask)));
+    const auto skeleton = SkeletonOf(Converse(*server, RequestsFor(mask)));
     ASSERT_TRUE(skeleton.ok()) << skeleton.status();
     EXPECT_EQ(skeleton->certificate.mask, (BettiNumbers{components, 0, 0}));
     EXPECT_EQ(skeleton->certificate.skeleton, (BettiNumbers{components, 0, 0}));
@@ -88,8 +86,7 @@ TEST(CubicMask, HasAsManyPointsAVoxelAsAskedFor) {
        {std::pair(v1::VOXEL_POINTS_UNSPECIFIED, 3U + 16), std::pair(v1::VOXEL_POINTS_TWO, 3U + 16),
         std::pair(v1::VOXEL_POINTS_SIXTEEN, 24U + 63)}) {
     mask.declaration.set_voxel_points(points);
-    const auto skeleton =
-        SkeletonOf(Converse(test::ConnectTo(server->address()), RequestsFor(mask)));
+    const auto skeleton = SkeletonOf(Converse(*server, RequestsFor(mask)));
     ASSERT_TRUE(skeleton.ok()) << skeleton.status();
     EXPECT_EQ(skeleton->object_points, count);
     const bool two = points != v1::VOXEL_POINTS_SIXTEEN;
@@ -106,7 +103,7 @@ TEST(CubicMask, OfThickSlicesMayHaveSlabsTimesTheBricksDeclared) {
   mask.declaration.mutable_placement()->mutable_spacing()->Set(2, 9);
   const uint32_t blocks = (mask.declaration.extent().nz() + 8) / 8;  // of 16 x 4 x 8 voxels
   mask.declaration.set_max_bricks(2 * blocks);
-  const auto skeleton = SkeletonOf(Converse(test::ConnectTo(server->address()), RequestsFor(mask)));
+  const auto skeleton = SkeletonOf(Converse(*server, RequestsFor(mask)));
   ASSERT_TRUE(skeleton.ok()) << skeleton.status();
   EXPECT_EQ(skeleton->options.voxel_slabs, (std::array<int32_t, 3>{1, 1, 3}));
   EXPECT_EQ(skeleton->certificate.skeleton, (BettiNumbers{1, 0, 0}));
@@ -115,7 +112,6 @@ TEST(CubicMask, OfThickSlicesMayHaveSlabsTimesTheBricksDeclared) {
 struct Fault {
   const char* what;
   void (*damage)(DeclaredVolume&);
-  absl::StatusCode code;
 };
 
 TEST(CubicMask, IsRefusedWhereItIsNotWhatItDeclares) {
@@ -124,38 +120,31 @@ TEST(CubicMask, IsRefusedWhereItIsNotWhatItDeclares) {
       {"adjacency",
        [](DeclaredVolume& m) {
          m.declaration.set_mask_adjacency(static_cast<v1::MaskAdjacency>(9));
-       },
-       absl::StatusCode::kInvalidArgument},
+       }},
       {"points a voxel",
-       [](DeclaredVolume& m) { m.declaration.set_voxel_points(static_cast<v1::VoxelPoints>(9)); },
-       absl::StatusCode::kInvalidArgument},
+       [](DeclaredVolume& m) { m.declaration.set_voxel_points(static_cast<v1::VoxelPoints>(9)); }},
       {"too few bytes",
        [](DeclaredVolume& m) {
          m.bytes.pop_back();
          m.declaration.set_size_bytes(m.bytes.size());
-       },
-       absl::StatusCode::kInvalidArgument},
+       }},
       {"too many bytes",
        [](DeclaredVolume& m) {
          m.bytes.push_back('\0');
          m.declaration.set_size_bytes(m.bytes.size());
-       },
-       absl::StatusCode::kInvalidArgument},
-      {"bits past the end", [](DeclaredVolume& m) { m.bytes.back() = '\xff'; },
-       absl::StatusCode::kInvalidArgument},
-      {"bricks", [](DeclaredVolume& m) { m.declaration.set_max_bricks(1); },
-       absl::StatusCode::kInvalidArgument},
-      {"voxels", [](DeclaredVolume& m) { m.declaration.mutable_extent()->set_nx(1 << 22); },
-       absl::StatusCode::kInvalidArgument},
+       }},
+      {"bits past the end", [](DeclaredVolume& m) { m.bytes.back() = '\xff'; }},
+      {"bricks", [](DeclaredVolume& m) { m.declaration.set_max_bricks(1); }},
+      {"voxels", [](DeclaredVolume& m) { m.declaration.mutable_extent()->set_nx(1 << 22); }},
       {"compression",
-       [](DeclaredVolume& m) { m.declaration.set_compression(v1::VOLUME_COMPRESSION_ZSTD); },
-       absl::StatusCode::kInvalidArgument},
+       [](DeclaredVolume& m) { m.declaration.set_compression(v1::VOLUME_COMPRESSION_ZSTD); }},
   };
   for (const Fault& fault : faults) {
     DeclaredVolume mask = MaskOf(IsInFrame);
     fault.damage(mask);
-    const auto replies = Converse(test::ConnectTo(server->address()), RequestsFor(mask));
-    EXPECT_EQ(replies.status.code(), fault.code) << fault.what << ": " << replies.status;
+    const auto replies = Converse(*server, RequestsFor(mask));
+    EXPECT_EQ(replies.status.code(), absl::StatusCode::kInvalidArgument)
+        << fault.what << ": " << replies.status;
   }
 }
 

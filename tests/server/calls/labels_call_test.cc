@@ -40,7 +40,7 @@ const v1::LabelsSummary& SummaryOf(const LabelsReplies& replies) {
 class LabelsCall : public testing::Test {
  protected:
   LabelsReplies Call(const DeclaredLabels& labels, size_t chunk_bytes = 10'000) {
-    return Converse(test::ConnectTo(server_->address()), RequestsFor(labels, chunk_bytes));
+    return Converse(*server_, RequestsFor(labels, chunk_bytes));
   }
   void ExpectGives(const DeclaredLabels& labels, const std::vector<LabelSkeleton>& expected) {
     const auto replies = Call(labels);

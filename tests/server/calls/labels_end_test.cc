@@ -30,11 +30,6 @@ std::unique_ptr<server::Server> ServerWithOneThread() {
   return test::StartServer(config);
 }
 
-void SendAll(RawLabelsCall& call) {
-  for (const auto& request : RequestsFor(Declare(Nets(), 2))) ASSERT_TRUE(call.Send(request));
-  call.CloseSending();
-}
-
 void ReceiveFirstLabel(RawLabelsCall& call, test::LabelsReplies& replies) {
   while (auto response = call.Receive()) {
     replies.responses.push_back(*std::move(response));
@@ -51,15 +46,14 @@ void WaitUntilPaused(const server::Server& server) {
 }
 
 void ExpectServes(const server::Server& server) {
-  const auto replies =
-      Converse(test::ConnectTo(server.address()), RequestsFor(Declare(test::FiveLabels())));
+  const auto replies = Converse(server, RequestsFor(Declare(test::FiveLabels())));
   EXPECT_TRUE(SkeletonsOf(replies).ok()) << replies.status;
 }
 
 TEST(LabelsEnd, ASlowReaderKeepsNoThreadAndLosesNothing) {
   const auto server = ServerWithOneThread();
   RawLabelsCall call(test::ConnectTo(server->address()));
-  SendAll(call);
+  ASSERT_TRUE(call.SendAll(RequestsFor(Declare(Nets(), 2))));
   test::LabelsReplies replies;
   ReceiveFirstLabel(call, replies);
   WaitUntilPaused(*server);
@@ -82,7 +76,7 @@ TEST(LabelsEnd, ASlowReaderKeepsNoThreadAndLosesNothing) {
 TEST(LabelsEnd, CancelWhilePausedFreesMemoryAndPlace) {
   const auto server = ServerWithOneThread();
   RawLabelsCall call(test::ConnectTo(server->address()));
-  SendAll(call);
+  ASSERT_TRUE(call.SendAll(RequestsFor(Declare(Nets(), 2))));
   test::LabelsReplies replies;
   ReceiveFirstLabel(call, replies);
   WaitUntilPaused(*server);
@@ -108,7 +102,7 @@ TEST(LabelsEnd, CancelDuringTheUploadFreesThePlace) {
 TEST(LabelsEnd, CancelAmidTheLabelsFreesThreadsAndMemory) {
   const auto server = test::StartServer();
   RawLabelsCall call(test::ConnectTo(server->address()));
-  SendAll(call);
+  ASSERT_TRUE(call.SendAll(RequestsFor(Declare(Nets(), 2))));
   test::LabelsReplies replies;
   ReceiveFirstLabel(call, replies);
   call.Cancel();
@@ -121,9 +115,7 @@ TEST(LabelsEnd, CancelAmidTheLabelsFreesThreadsAndMemory) {
 TEST(LabelsEnd, APassedDeadlineEndsAJobWhoseCallerDoesNotRead) {
   const auto server = ServerWithOneThread();
   RawLabelsCall call(test::ConnectTo(server->address()), std::chrono::milliseconds(700));
-  for (const auto& request : RequestsFor(Declare(Nets(), 2))) {
-    if (!call.Send(request)) break;
-  }
+  call.SendAll(RequestsFor(Declare(Nets(), 2)));
   test::WaitUntilIdle(*server);
   EXPECT_EQ(call.Finish().code(), absl::StatusCode::kDeadlineExceeded);
   ExpectServes(*server);
@@ -139,9 +131,7 @@ TEST(LabelsEnd, CallsCancelledAtAllTimesLeaveNothingBehind) {
         std::this_thread::sleep_for(std::chrono::milliseconds(3 * n));
         call.Cancel();
       });
-      for (const auto& request : RequestsFor(Declare(test::FiveLabels()), 20'000)) {
-        if (!call.Send(request)) break;
-      }
+      call.SendAll(RequestsFor(Declare(test::FiveLabels()), 20'000));
       const absl::Status end = call.Finish();
       EXPECT_TRUE(end.ok() || absl::IsCancelled(end) || absl::IsInvalidArgument(end)) << end;
     });

@@ -61,14 +61,13 @@ TEST(ShellPointsCall, SendsEveryPointOfTheObjectOnce) {
   const auto server = test::StartServer();
   for (Shape shape : {Shape::kTree, Shape::kHollowBall}) {
     const Volume object = *GenerateShape(shape, {.points = 60'000, .noise = 0.05});
-    ExpectTheObject(Converse(test::ConnectTo(server->address()), PeelRequests(object)), object);
+    ExpectTheObject(Converse(*server, PeelRequests(object)), object);
   }
 }
 
 TEST(ShellPointsCall, SendsNoneWhereNoneAreWanted) {
   const auto server = test::StartServer();
-  const auto replies =
-      Converse(test::ConnectTo(server->address()), RequestsFor(test::SmallTorusPlanes()));
+  const auto replies = Converse(*server, RequestsFor(test::SmallTorusPlanes()));
   ASSERT_TRUE(replies.status.ok());
   for (const auto& response : replies.responses) EXPECT_FALSE(response.has_shell_points());
 }
@@ -84,8 +83,7 @@ TEST(ShellPointsCall, ASlowReaderHoldsUpNobodyAndLosesNothing) {
     ASSERT_TRUE(slow.Send(request));
   }
   for (int n = 0; n < 3; ++n) {
-    const auto other =
-        Converse(test::ConnectTo(server->address()), RequestsFor(test::SmallTorusPlanes()));
+    const auto other = Converse(*server, RequestsFor(test::SmallTorusPlanes()));
     EXPECT_TRUE(other.status.ok()) << other.status;
   }
   test::Replies replies;
@@ -99,7 +97,7 @@ TEST(ShellPointsCall, RefusesAChoiceThatItDoesNotKnow) {
   const auto server = test::StartServer();
   auto requests = PeelRequests(test::SmallTorus());
   requests.front().mutable_config()->set_shell_points_return(static_cast<v1::ShellPointsReturn>(9));
-  const auto replies = Converse(test::ConnectTo(server->address()), requests);
+  const auto replies = Converse(*server, requests);
   EXPECT_TRUE(absl::IsInvalidArgument(replies.status)) << replies.status;
 }
 

@@ -33,8 +33,7 @@ void ExpectSame(const absl::StatusOr<SkeletonizeResult>& found, const Skeletoniz
 
 TEST(SkeletonizeCall, GivesTheLibrarysResultOverTcp) {
   const auto server = test::StartServer();
-  const auto replies =
-      Converse(test::ConnectTo(server->address()), RequestsFor(test::SmallTorusPlanes()));
+  const auto replies = Converse(*server, RequestsFor(test::SmallTorusPlanes()));
   ExpectSame(SkeletonOf(replies), ByTheLibrary(test::SmallTorus()));
 }
 
@@ -44,8 +43,7 @@ TEST(SkeletonizeCall, GivesTheLibrarysResultOverAUnixSocket) {
   config.listen = {"unix:" + folder / "server.sock"};
   const auto server = test::StartServer(config);
   EXPECT_EQ(server->addresses(), config.listen);
-  const auto replies =
-      Converse(test::ConnectTo(server->address()), RequestsFor(test::SmallTorusPlanes()));
+  const auto replies = Converse(*server, RequestsFor(test::SmallTorusPlanes()));
   ExpectSame(SkeletonOf(replies), ByTheLibrary(test::SmallTorus()));
 }
 
@@ -83,8 +81,7 @@ TEST_P(EncodingTest, GivesTheSameSkeleton) {
   const auto server = test::StartServer();
   const DeclaredVolume volume =
       Declare(test::SmallTorus(), GetParam().encoding, GetParam().compression);
-  const auto replies =
-      Converse(test::ConnectTo(server->address()), RequestsFor(volume, GetParam().chunk_bytes));
+  const auto replies = Converse(*server, RequestsFor(volume, GetParam().chunk_bytes));
   ExpectSame(SkeletonOf(replies), ByTheLibrary(test::SmallTorus()));
 }
 
@@ -103,16 +100,14 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(SkeletonizeCall, AnEmptyVolumeHasAnEmptySkeleton) {
   const auto server = test::StartServer();
   const Volume empty = *VolumeBuilder({8, 8, 8}).Build();
-  const auto replies = Converse(test::ConnectTo(server->address()),
-                                RequestsFor(Declare(empty, VolumeEncoding::kRawPlanes)));
+  const auto replies = Converse(*server, RequestsFor(Declare(empty, VolumeEncoding::kRawPlanes)));
   ExpectSame(SkeletonOf(replies), ByTheLibrary(empty));
 }
 
 TEST(SkeletonizeCall, RepliesComeInTheStatedOrder) {
   const auto server = test::StartServer();
   const Volume volume = *GenerateShape(Shape::kTree, {.points = 300'000});
-  const auto replies = Converse(test::ConnectTo(server->address()),
-                                RequestsFor(Declare(volume, VolumeEncoding::kBricks)));
+  const auto replies = Converse(*server, RequestsFor(Declare(volume, VolumeEncoding::kBricks)));
   ASSERT_TRUE(replies.status.ok()) << replies.status;
   std::string order;
   int32_t shell = 0;
@@ -132,8 +127,7 @@ TEST(SkeletonizeCall, RepliesComeInTheStatedOrder) {
 
 TEST(SkeletonizeCall, AcceptedNamesTheJobAndTheChunkLimit) {
   const auto server = test::StartServer();
-  const auto replies =
-      Converse(test::ConnectTo(server->address()), RequestsFor(test::SmallTorusPlanes()));
+  const auto replies = Converse(*server, RequestsFor(test::SmallTorusPlanes()));
   ASSERT_FALSE(replies.responses.empty());
   const v1::SkeletonizeAccepted& accepted = replies.responses[0].accepted();
   EXPECT_THAT(accepted.job(), testing::StartsWith("jobs/"));

@@ -24,11 +24,6 @@ const test::DeclaredVolume& LargeTorus() {
   return torus;
 }
 
-void SendAll(RawCall& call) {
-  for (const auto& request : RequestsFor(LargeTorus())) ASSERT_TRUE(call.Send(request));
-  call.CloseSending();
-}
-
 void ReceiveUntilProgress(RawCall& call) {
   while (auto response = call.Receive()) {
     if (response->has_shell_progress()) return;
@@ -38,8 +33,7 @@ void ReceiveUntilProgress(RawCall& call) {
 
 void ExpectServes(const server::Server& server) {
   test::WaitUntilIdle(server);
-  const auto replies =
-      Converse(test::ConnectTo(server.address()), RequestsFor(test::SmallTorusPlanes()));
+  const auto replies = Converse(server, RequestsFor(test::SmallTorusPlanes()));
   EXPECT_TRUE(SkeletonOf(replies).ok()) << replies.status;
 }
 
@@ -58,7 +52,7 @@ TEST(SkeletonizeCancel, DuringTheUploadFreesThePlace) {
 TEST(SkeletonizeCancel, DuringTheComputationFreesThreadsAndMemory) {
   const auto server = test::StartServer();
   RawCall call(test::ConnectTo(server->address()));
-  SendAll(call);
+  ASSERT_TRUE(call.SendAll(RequestsFor(LargeTorus())));
   ReceiveUntilProgress(call);
   call.Cancel();
   EXPECT_EQ(call.Finish().code(), absl::StatusCode::kCancelled);
@@ -70,9 +64,9 @@ TEST(SkeletonizeCancel, WhileWaitingForATurnFreesThePlace) {
   config.limits.max_jobs = 1;
   const auto server = test::StartServer(config);
   RawCall first(test::ConnectTo(server->address())), second(test::ConnectTo(server->address()));
-  SendAll(first);
+  ASSERT_TRUE(first.SendAll(RequestsFor(LargeTorus())));
   ReceiveUntilProgress(first);
-  SendAll(second);
+  ASSERT_TRUE(second.SendAll(RequestsFor(LargeTorus())));
   ASSERT_TRUE(second.Receive()->has_accepted());
   second.Cancel();
   EXPECT_EQ(second.Finish().code(), absl::StatusCode::kCancelled);
@@ -99,9 +93,7 @@ TEST(SkeletonizeCancel, APassedDeadlineStopsTheComputation) {
   for (auto timeout = std::chrono::milliseconds(1024); end.ok() && timeout.count() > 0;
        timeout /= 2) {
     RawCall call(test::ConnectTo(server->address()), timeout);
-    for (const auto& request : requests) {
-      if (!call.Send(request)) break;
-    }
+    call.SendAll(requests);
     end = call.Finish();
   }
   EXPECT_EQ(end.code(), absl::StatusCode::kDeadlineExceeded);
@@ -131,9 +123,7 @@ TEST(SkeletonizeCancel, ManyCallsCancelledAtAllTimesLeaveNothingBehind) {
         std::this_thread::sleep_for(std::chrono::milliseconds(3 * n));
         call.Cancel();
       });
-      for (const auto& request : RequestsFor(test::SmallTorusPlanes(), 5000)) {
-        if (!call.Send(request)) break;
-      }
+      call.SendAll(RequestsFor(test::SmallTorusPlanes(), 5000));
       const absl::Status end = call.Finish();
       EXPECT_TRUE(end.ok() || absl::IsCancelled(end) || absl::IsInvalidArgument(end)) << end;
     });

@@ -46,7 +46,7 @@ TEST_P(OptionsTest, ReachesThePipeline) {
   const auto server = test::StartServer();
   auto requests = RequestsFor(test::Declare(CloudAndBlob(), VolumeEncoding::kBricks));
   *requests[0].mutable_config()->mutable_options() = wire::ToMessage(GetParam().options);
-  const auto found = SkeletonOf(Converse(test::ConnectTo(server->address()), requests));
+  const auto found = SkeletonOf(Converse(*server, requests));
   ASSERT_TRUE(found.ok()) << found.status();
   const auto expected = Skeletonize(CloudAndBlob(), GetParam().options, exec::Context());
   const auto standard = Skeletonize(CloudAndBlob(), GetParam().standard, exec::Context());
@@ -89,7 +89,7 @@ TEST_P(ThinVolumeTest, ComesBackWhole) {
   const auto server = test::StartServer();
   auto requests = RequestsFor(test::SmallTorusPlanes());
   requests[0].mutable_config()->set_thin_volume_return(GetParam().wanted);
-  const auto replies = Converse(test::ConnectTo(server->address()), requests);
+  const auto replies = Converse(*server, requests);
   ASSERT_TRUE(replies.status.ok()) << replies.status;
   const std::string bytes = ThinVolumeOf(replies);
   EXPECT_EQ(replies.responses.back().summary().thin_volume_size_bytes(), bytes.size());
@@ -112,7 +112,7 @@ TEST(SkeletonizeThreads, DoNotChangeTheResultAndAreReported) {
   for (const int threads : {1, 2}) {
     test::WaitUntilIdle(*server);  // a job gets what is free when its turn comes
     requests[0].mutable_config()->set_threads(threads);
-    const auto replies = Converse(test::ConnectTo(server->address()), requests);
+    const auto replies = Converse(*server, requests);
     const auto found = SkeletonOf(replies);
     ASSERT_TRUE(found.ok()) << found.status();
     digests.push_back(found->sha256);

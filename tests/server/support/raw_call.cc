@@ -12,9 +12,7 @@ namespace {
 template <typename Request, typename Response>
 RepliesOf<Response> ConverseBy(RawCallOf<Request, Response>& call,
                                const std::vector<Request>& requests) {
-  bool open = true;
-  for (const Request& request : requests) open = open && call.Send(request);
-  if (open) call.CloseSending();
+  call.SendAll(requests);
   RepliesOf<Response> replies;
   while (auto response = call.Receive()) replies.responses.push_back(*std::move(response));
   replies.status = call.Finish();

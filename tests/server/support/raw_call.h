@@ -15,6 +15,8 @@
 #include "bccskel/v1/skeletonization_service.grpc.pb.h"
 #include "core/labels/skeletonize_labels.h"
 #include "core/pipeline/skeletonize.h"
+#include "server/server.h"
+#include "tests/server/support/running_server.h"
 
 namespace bccskel::test {
 
@@ -38,7 +40,14 @@ class RawCallOf {
 
   // False when the call has ended.
   bool Send(const Request& request) { return stream_->Write(request); }
-  void CloseSending() { stream_->WritesDone(); }
+  // A whole conversation. False when the call has ended before.
+  bool SendAll(const std::vector<Request>& requests) {
+    for (const Request& request : requests) {
+      if (!Send(request)) return false;
+    }
+    stream_->WritesDone();
+    return true;
+  }
   // Nothing when the call has ended.
   std::optional<Response> Receive() {
     Response response;
@@ -73,6 +82,12 @@ Replies Converse(const std::shared_ptr<grpc::Channel>& channel,
                  const std::vector<v1::SkeletonizeRequest>& requests);
 LabelsReplies Converse(const std::shared_ptr<grpc::Channel>& channel,
                        const std::vector<v1::SkeletonizeLabelsRequest>& requests);
+
+// On a connection of its own.
+template <typename Request>
+auto Converse(const server::Server& server, const std::vector<Request>& requests) {
+  return Converse(ConnectTo(server.address()), requests);
+}
 
 // The skeleton that the replies make, checked as clients check it; `thin` stays empty.
 absl::StatusOr<SkeletonizeResult> SkeletonOf(const Replies& replies);
