@@ -77,7 +77,7 @@ struct ResultRecord {
 struct NewUpload {
   // "uploads/" and 1 to 64 of a-z, A-Z, 0-9, '-', '_'; empty: DurableJobs chooses one. Repeating a
   // name with the same declaration and job yields the existing upload.
-  std::string name;
+  std::string name = {};
   std::string declaration;
   // A job that runs as soon as the volume is complete: the one-call path. It is in state kReceiving
   // from the call of `done` on; its volume is decoded during the upload if the runner has a place.
@@ -87,7 +87,7 @@ struct NewUpload {
     int threads = 0;         // wanted; 0 leaves it to the server
     std::string trace = {};  // for the log
   };
-  std::optional<ThenJob> then_job;
+  std::optional<ThenJob> then_job = {};
 };
 
 struct NewJob {

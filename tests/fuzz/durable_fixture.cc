@@ -56,7 +56,7 @@ std::string CellDeclaration() {
 }
 
 std::string BeginCell(const std::string& name) {
-  return Upload({.name = name, .declaration = CellDeclaration(), .then_job = {}})->name;
+  return Upload({.name = name, .declaration = CellDeclaration()})->name;
 }
 
 std::string MakeVolume() {

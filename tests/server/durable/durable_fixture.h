@@ -116,6 +116,11 @@ class DurableTest : public testing::Test {
     return promise.get_future().get();
   }
 
+  void Reopen() {
+    Close();
+    Open();
+  }
+
   absl::StatusOr<UploadInfo> CreateUpload(const std::string& tenant, const NewUpload& upload) {
     return Get<UploadInfo>([&](auto done) { durable_jobs_->CreateUpload(tenant, upload, done); });
   }
@@ -137,15 +142,22 @@ class DurableTest : public testing::Test {
   // A whole upload; the volume's name.
   std::string Upload(const std::string& tenant, const std::string& bytes,
                      const std::string& declaration = "") {
-    const auto upload = CreateUpload(
-        tenant,
-        {.name = {}, .declaration = std::to_string(bytes.size()) + declaration, .then_job = {}});
+    const auto upload =
+        CreateUpload(tenant, {.declaration = std::to_string(bytes.size()) + declaration});
     EXPECT_TRUE(upload.ok()) << upload.status();
     if (!upload.ok()) return {};
     EXPECT_TRUE(Append(tenant, upload->name, 0, bytes).ok());
     const auto volume = Finish(tenant, upload->name, bytes.size());
     EXPECT_TRUE(volume.ok()) << volume.status();
     return volume.ok() ? volume->name : std::string();
+  }
+  absl::StatusOr<std::vector<VolumeInfo>> Find(const std::string& tenant,
+                                               const std::string& digest) {
+    return Get<std::vector<VolumeInfo>>(
+        [&](auto done) { durable_jobs_->FindVolumes(tenant, {digest}, done); });
+  }
+  absl::Status DeleteVolume(const std::string& tenant, const std::string& volume) {
+    return GetStatus([&](auto done) { durable_jobs_->DeleteVolume(tenant, volume, done); });
   }
   absl::StatusOr<JobInfo> Create(const std::string& tenant, const NewJob& job) {
     return Get<JobInfo>([&](auto done) { durable_jobs_->CreateJob(tenant, job, done); });
@@ -163,6 +175,18 @@ class DurableTest : public testing::Test {
     EXPECT_TRUE(info.ok()) << info.status();
     return info.ok() ? info->name : std::string();
   }
+  // A job of the clinic on these bytes.
+  std::string MakeJob(const std::string& bytes = "volume") {
+    return CreateName("clinic", JobOf(Upload("clinic", bytes)));
+  }
+  std::string EndedJob() {
+    const std::string job = MakeJob();
+    WaitForEnd("clinic", job);
+    return job;
+  }
+  absl::StatusOr<JobPage> List(const std::string& tenant, const JobQuery& query = {}) {
+    return Get<JobPage>([&](auto done) { durable_jobs_->ListJobs(tenant, query, done); });
+  }
   absl::StatusOr<JobInfo> GetJob(const std::string& tenant, const std::string& job) {
     return Get<JobInfo>([&](auto done) { durable_jobs_->GetJob(tenant, job, done); });
   }
@@ -172,11 +196,16 @@ class DurableTest : public testing::Test {
   absl::Status Delete(const std::string& tenant, const std::string& job) {
     return GetStatus([&](auto done) { durable_jobs_->DeleteJob(tenant, job, done); });
   }
+  // A watcher, and what it is there for as long as.
+  std::pair<std::shared_ptr<RememberingWatcher>, std::shared_ptr<void>> Watch(
+      const std::string& tenant, const std::string& job, uint64_t after = 0) {
+    auto watcher = std::make_shared<RememberingWatcher>();
+    return {watcher, durable_jobs_->WatchJob(tenant, job, after, watcher)};
+  }
   // All that a watcher hears until the job has ended.
   std::shared_ptr<RememberingWatcher> WatchToTheEnd(const std::string& tenant,
                                                     const std::string& job, uint64_t after = 0) {
-    auto watcher = std::make_shared<RememberingWatcher>();
-    const auto handle = durable_jobs_->WatchJob(tenant, job, after, watcher);
+    const auto [watcher, handle] = Watch(tenant, job, after);
     const absl::Status end = watcher->WaitForEnd();
     EXPECT_TRUE(end.ok()) << end;
     return watcher;
@@ -186,8 +215,7 @@ class DurableTest : public testing::Test {
     return *GetJob(tenant, job);
   }
   void WaitForState(const std::string& tenant, const std::string& job, JobState state) {
-    auto watcher = std::make_shared<RememberingWatcher>();
-    const auto handle = durable_jobs_->WatchJob(tenant, job, 0, watcher);
+    const auto [watcher, handle] = Watch(tenant, job);
     watcher->WaitForState(state);
   }
   absl::StatusOr<std::vector<ResultRecord>> ReadResult(const std::string& tenant,

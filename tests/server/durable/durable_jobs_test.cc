@@ -23,7 +23,7 @@ class DurableJobsTest : public DurableTest {
 };
 
 TEST_F(DurableJobsTest, ComputesAndKeepsTheResult) {
-  const std::string job = CreateName("clinic", JobOf(Upload("clinic", "volume")));
+  const std::string job = MakeJob();
   const JobInfo ended = WaitForEnd("clinic", job);
   EXPECT_EQ(ended.state, JobState::kSucceeded) << ended.error;
   EXPECT_EQ(ended.result_records, 4u);
@@ -35,18 +35,15 @@ TEST_F(DurableJobsTest, ComputesAndKeepsTheResult) {
 }
 
 TEST_F(DurableJobsTest, ReadsAResultFromAnyRecordOn) {
-  const std::string job = CreateName("clinic", JobOf(Upload("clinic", "volume")));
-  WaitForEnd("clinic", job);
+  const std::string job = EndedJob();
   EXPECT_EQ(ReadResult("clinic", job, 2)->front().bytes, "volume 2");
   EXPECT_THAT(*ReadResult("clinic", job, 4), IsEmpty());
   EXPECT_EQ(ReadResult("clinic", job, 5).status().code(), absl::StatusCode::kOutOfRange);
 }
 
 TEST_F(DurableJobsTest, KeepsTheResultOverARestart) {
-  const std::string job = CreateName("clinic", JobOf(Upload("clinic", "volume")));
-  WaitForEnd("clinic", job);
-  Close();
-  Open();
+  const std::string job = EndedJob();
+  Reopen();
   EXPECT_THAT(*ReadResult("clinic", job), SizeIs(4));
 }
 
@@ -85,7 +82,7 @@ TEST_F(DurableJobsTest, ChecksWithoutMakingAnything) {
   EXPECT_EQ(CreateName("clinic", job), "");
   job.options = "bad";
   EXPECT_FALSE(Create("clinic", job).ok());
-  const auto page = Get<JobPage>([&](auto done) { durable_jobs_->ListJobs("clinic", {}, done); });
+  const auto page = List("clinic");
   EXPECT_THAT(page->jobs, IsEmpty());
 }
 
@@ -138,17 +135,17 @@ TEST_F(DurableJobsTest, CancelsAJobThatRunsAndOneThatWaits) {
   options_.max_runs = 1;
   Open();
   runner_->Hold();
-  const std::string runs = CreateName("clinic", JobOf(Upload("clinic", "one")));
+  const std::string runs = MakeJob("one");
   WaitForState("clinic", runs, JobState::kRunning);
   runner_->WaitForComputing(1);
-  const std::string waits = CreateName("clinic", JobOf(Upload("clinic", "two")));
+  const std::string waits = MakeJob("two");
   EXPECT_EQ(Cancel("clinic", waits)->state, JobState::kCancelled);
   EXPECT_EQ(Cancel("clinic", runs)->state, JobState::kCancelled);
   EXPECT_EQ(Cancel("clinic", runs)->state, JobState::kCancelled) << "once more";
   runner_->Release();
   EXPECT_EQ(WatchToTheEnd("clinic", waits)->States(), "15");
   EXPECT_EQ(WatchToTheEnd("clinic", runs)->States(), "125");
-  const std::string next = CreateName("clinic", JobOf(Upload("clinic", "three")));
+  const std::string next = MakeJob("three");
   EXPECT_EQ(WaitForEnd("clinic", next).state, JobState::kSucceeded) << "the place is free again";
   EXPECT_EQ(runner_->computed(), 1);
 }
@@ -179,8 +176,7 @@ TEST_F(DurableJobsTest, BeginsShortJobsBeforeThereIsAPlaceButNoLargeOneAndNoneBe
 }
 
 TEST_F(DurableJobsTest, NeverChangesAJobThatHasEnded) {
-  const std::string job = CreateName("clinic", JobOf(Upload("clinic", "volume")));
-  WaitForEnd("clinic", job);
+  const std::string job = EndedJob();
   EXPECT_EQ(Cancel("clinic", job)->state, JobState::kSucceeded);
   EXPECT_THAT(*ReadResult("clinic", job), SizeIs(4));
 }
@@ -202,10 +198,9 @@ TEST_F(DurableJobsTest, ErasesTheResultOfADeletedJobUnlessAnotherHasIt) {
 
 TEST_F(DurableJobsTest, CancelsAJobBeforeItIsDeleted) {
   runner_->Hold();
-  const std::string job = CreateName("clinic", JobOf(Upload("clinic", "volume")));
+  const std::string job = MakeJob();
   runner_->WaitForComputing(1);
-  auto watcher = std::make_shared<RememberingWatcher>();
-  const auto handle = durable_jobs_->WatchJob("clinic", job, 0, watcher);
+  const auto [watcher, handle] = Watch("clinic", job);
   ASSERT_TRUE(Delete("clinic", job).ok());
   EXPECT_TRUE(watcher->WaitForEnd().ok());
   EXPECT_EQ(watcher->States(), "125");
@@ -217,19 +212,15 @@ TEST_F(DurableJobsTest, KeepsAVolumeThatAJobNeeds) {
   runner_->Hold();
   const std::string volume = Upload("clinic", "volume");
   const std::string job = CreateName("clinic", JobOf(volume));
-  const auto erase = [&] {
-    return GetStatus([&](auto done) { durable_jobs_->DeleteVolume("clinic", volume, done); });
-  };
-  EXPECT_EQ(erase().code(), absl::StatusCode::kFailedPrecondition);
+  EXPECT_EQ(DeleteVolume("clinic", volume).code(), absl::StatusCode::kFailedPrecondition);
   ASSERT_TRUE(Cancel("clinic", job).ok());
-  EXPECT_TRUE(erase().ok());
+  EXPECT_TRUE(DeleteVolume("clinic", volume).ok());
 }
 
 TEST_F(DurableJobsTest, TellsEventsInOrderAndProgressInBetween) {
   runner_->Hold();
-  const std::string job = CreateName("clinic", JobOf(Upload("clinic", "volume")));
-  auto watcher = std::make_shared<RememberingWatcher>();
-  const auto handle = durable_jobs_->WatchJob("clinic", job, 0, watcher);
+  const std::string job = MakeJob();
+  const auto [watcher, handle] = Watch("clinic", job);
   runner_->WaitForComputing(1);
   runner_->Release();
   ASSERT_TRUE(watcher->WaitForEnd().ok());
@@ -249,16 +240,15 @@ TEST_F(DurableJobsTest, TellsEventsInOrderAndProgressInBetween) {
 
 TEST_F(DurableJobsTest, WatchesNothingThatIsNotThere) {
   auto watcher = std::make_shared<RememberingWatcher>();
-  const std::string job = CreateName("clinic", JobOf(Upload("clinic", "volume")));
+  const std::string job = MakeJob();
   const auto handle = durable_jobs_->WatchJob("other", job, 0, watcher);
   EXPECT_EQ(watcher->WaitForEnd().code(), absl::StatusCode::kNotFound);
 }
 
 TEST_F(DurableJobsTest, EndsWatchesWhenItStops) {
   runner_->Hold();
-  const std::string job = CreateName("clinic", JobOf(Upload("clinic", "volume")));
-  auto watcher = std::make_shared<RememberingWatcher>();
-  const auto handle = durable_jobs_->WatchJob("clinic", job, 0, watcher);
+  const std::string job = MakeJob();
+  const auto [watcher, handle] = Watch("clinic", job);
   Close();
   EXPECT_EQ(watcher->WaitForEnd().code(), absl::StatusCode::kUnavailable);
 }

@@ -16,9 +16,6 @@ using testing::IsEmpty;
 class DurableListingTest : public DurableTest {
  protected:
   void SetUp() override { Open(); }
-  absl::StatusOr<JobPage> List(const std::string& tenant, const JobQuery& query) {
-    return Get<JobPage>([&](auto done) { durable_jobs_->ListJobs(tenant, query, done); });
-  }
 };
 
 TEST_F(DurableListingTest, ListsJobsPageByPageNewestFirst) {
@@ -58,9 +55,7 @@ TEST_F(DurableListingTest, ListsOnWhenJobsOfEarlierPagesAreDeleted) {
     const auto page = List("clinic", query);
     ASSERT_EQ(page->jobs.size(), 1u);
     listed.push_back(page->jobs[0].name);
-    EXPECT_TRUE(GetStatus([&](auto done) {
-                  durable_jobs_->DeleteJob("clinic", listed.back(), done);
-                }).ok());
+    EXPECT_TRUE(Delete("clinic", listed.back()).ok());
     query.page_token = page->next_token;
   } while (!query.page_token.empty());
   EXPECT_EQ(listed, std::vector<std::string>(names.rbegin(), names.rend()));

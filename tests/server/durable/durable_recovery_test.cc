@@ -44,9 +44,9 @@ TEST_F(DurableRecoveryTest, RunsWhatWaitedAndWhatRanAgain) {
   options_.max_runs = 1;
   Open();
   runner_->Hold();
-  const std::string runs = CreateName("clinic", JobOf(Upload("clinic", "one")));
+  const std::string runs = MakeJob("one");
   runner_->WaitForComputing(1);
-  const std::string waits = CreateName("clinic", JobOf(Upload("clinic", "two")));
+  const std::string waits = MakeJob("two");
   Crash();
   Open();
   const JobInfo again = WaitForEnd("clinic", runs);
@@ -58,7 +58,7 @@ TEST_F(DurableRecoveryTest, RunsWhatWaitedAndWhatRanAgain) {
 
 TEST_F(DurableRecoveryTest, GoesOnWithTheNumbersOfEvents) {
   runner_->Hold();
-  const std::string job = CreateName("clinic", JobOf(Upload("clinic", "volume")));
+  const std::string job = MakeJob();
   auto before = std::make_shared<RememberingWatcher>();
   auto handle = durable_jobs_->WatchJob("clinic", job, 0, before);
   runner_->WaitForComputing(1);
@@ -77,7 +77,7 @@ TEST_F(DurableRecoveryTest, DoesNotRunAJobAFourthTimeThatWasThereAtThreeCrashes)
   std::string job;
   runner_->Hold();
   for (int attempt = 1; attempt <= 3; ++attempt) {
-    if (attempt == 1) job = CreateName("clinic", JobOf(Upload("clinic", "volume")));
+    if (attempt == 1) job = MakeJob();
     runner_->WaitForComputing(1);
     EXPECT_EQ(GetJob("clinic", job)->attempts, attempt) << "counted before it begins";
     Crash();
@@ -92,15 +92,14 @@ TEST_F(DurableRecoveryTest, DoesNotRunAJobAFourthTimeThatWasThereAtThreeCrashes)
 }
 
 TEST_F(DurableRecoveryTest, CountsNoCrashWhenTheServerStopsInGoodOrder) {
-  std::string job = CreateName("clinic", JobOf(Upload("clinic", "first")));
+  std::string job = MakeJob("first");
   WaitForEnd("clinic", job);
   runner_->Hold();
-  job = CreateName("clinic", JobOf(Upload("clinic", "volume")));
+  job = MakeJob();
   for (int stop = 0; stop < 4; ++stop) {
     WaitForState("clinic", job, JobState::kRunning);
     runner_->WaitForComputing(stop + 2);
-    Close();
-    Open();
+    Reopen();
   }
   runner_->Release();
   EXPECT_EQ(WaitForEnd("clinic", job).state, JobState::kSucceeded);
@@ -110,7 +109,7 @@ TEST_F(DurableRecoveryTest, FailsTheJobOfADamagedVolumeAndRunsTheOthers) {
   runner_->Hold();
   const std::string volume = Upload("clinic", "one");
   const std::string damaged = CreateName("clinic", JobOf(volume));
-  const std::string other = CreateName("clinic", JobOf(Upload("clinic", "two")));
+  const std::string other = MakeJob("two");
   Close();
   {
     auto tables = OpenSqlite(options_.data_directory + "/jobs.db");
@@ -129,8 +128,7 @@ class DurableFilesTest : public DurableRecoveryTest {
  protected:
   void SetUp() override {
     DurableRecoveryTest::SetUp();
-    job_ = CreateName("clinic", JobOf(Upload("clinic", "volume")));
-    WaitForEnd("clinic", job_);
+    job_ = EndedJob();
     Close();
   }
   std::string Path(const std::string& name) const { return options_.data_directory + "/" + name; }
@@ -191,7 +189,7 @@ TEST_F(DurableFilesTest, DoesNotStartWithoutTheTablesOfItsFiles) {
 
 TEST_F(DurableFilesTest, DoesNotStartAfterACrashWithoutTheLogOfItsTables) {
   Open();
-  const std::string job = CreateName("clinic", JobOf(Upload("clinic", "volume")));
+  const std::string job = MakeJob();
   Crash();
   std::filesystem::rename(Path("jobs.db-wal"), Path("moved"));
   ExpectRefusal();
@@ -208,7 +206,7 @@ TEST_F(DurableFilesTest, DoesNotStartAfterACrashWithoutTheLogOfItsTables) {
 
 TEST_F(DurableFilesTest, ConfirmsNothingWhileTheLogOfItsTablesIsGone) {
   Open();
-  const std::string confirmed = CreateName("clinic", JobOf(Upload("clinic", "volume")));
+  const std::string confirmed = MakeJob();
   std::filesystem::remove(Path("jobs.db-wal"));
   EXPECT_EQ(durable_jobs_->Health().code(), absl::StatusCode::kDataLoss);
   EXPECT_EQ(GetJob("clinic", confirmed).status().code(), absl::StatusCode::kDataLoss);
@@ -221,7 +219,7 @@ TEST_F(DurableFilesTest, DoesNotStartWithTheTablesOfAnotherFolder) {
   const std::string own = options_.data_directory;
   options_.data_directory = folder_ / "other";
   Open();
-  WaitForEnd("clinic", CreateName("clinic", JobOf(Upload("clinic", "another"))));
+  WaitForEnd("clinic", MakeJob("another"));
   Close();
   options_.data_directory = own;
   const auto over = std::filesystem::copy_options::overwrite_existing;
@@ -241,7 +239,7 @@ TEST_F(DurableFilesTest, GoesOnWithoutTheTablesWhereItIsTold) {
   options_.unknown_data = "adopt";
   Open();
   EXPECT_THAT(FilesIn("results"), SizeIs(1));
-  const std::string job = CreateName("clinic", JobOf(Upload("clinic", "volume")));
+  const std::string job = MakeJob();
   EXPECT_EQ(WaitForEnd("clinic", job).state, JobState::kSucceeded);
   Close();
   options_.unknown_data = "refuse";
@@ -309,11 +307,11 @@ class KilledServer {
     for (uint32_t n = 0;; ++n) {
       const std::string bytes = "volume " + std::to_string(n % 8);
       const std::string upload = "uploads/" + RequestOf(round, n);
-      durable_jobs.CreateUpload(
-          "clinic", {.name = upload, .declaration = std::to_string(bytes.size()), .then_job = {}},
-          [&durable_jobs, pipe, round, n, upload, bytes](const auto& begun) {
-            if (begun.ok()) Send(durable_jobs, pipe, round, n, upload, bytes);
-          });
+      durable_jobs.CreateUpload("clinic",
+                                {.name = upload, .declaration = std::to_string(bytes.size())},
+                                [&durable_jobs, pipe, round, n, upload, bytes](const auto& begun) {
+                                  if (begun.ok()) Send(durable_jobs, pipe, round, n, upload, bytes);
+                                });
       usleep(500);
     }
   }
@@ -354,8 +352,7 @@ TEST_F(DurableRecoveryTest, LosesAndDoublesNothingHoweverOftenItIsKilled) {
   query.page_size = 1000;
   std::set<std::string> found;
   do {
-    const auto page =
-        Get<JobPage>([&](auto done) { durable_jobs_->ListJobs("clinic", query, done); });
+    const auto page = List("clinic", query);
     ASSERT_TRUE(page.ok()) << page.status();
     for (const JobInfo& job : page->jobs) {
       EXPECT_TRUE(found.insert(job.request_id).second) << job.request_id << " twice";

@@ -30,7 +30,7 @@ class DurableReportsTest : public DurableTest {
   }
 
   // A job with a trace, in state kSucceeded.
-  std::string EndedJob() {
+  std::string EndedTracedJob() {
     const std::string job = CreateName("clinic", TracedJob());
     WaitForEnd("clinic", job);
     return job;
@@ -56,7 +56,7 @@ class DurableReportsTest : public DurableTest {
 };
 
 TEST_F(DurableReportsTest, EveryStateWithTheTraceOfTheCallThatMadeTheJob) {
-  const std::string job = EndedJob();
+  const std::string job = EndedTracedJob();
   EXPECT_THAT(States(), ElementsAre(JobState::kQueued, JobState::kRunning, JobState::kSucceeded));
   for (const JobRow& row : Rows()) {
     EXPECT_EQ(row.name, job);
@@ -69,17 +69,16 @@ TEST_F(DurableReportsTest, EveryStateWithTheTraceOfTheCallThatMadeTheJob) {
 }
 
 TEST_F(DurableReportsTest, TheTraceOfAJobThatCameWithItsVolume) {
-  NewUpload upload = {.name = {}, .declaration = "6", .then_job = {}};
-  upload.then_job = NewUpload::ThenJob{.options = "o"};
-  upload.then_job->trace = "trace";
-  const auto begun = CreateUpload("clinic", upload);
+  const auto begun = CreateUpload(
+      "clinic",
+      {.declaration = "6", .then_job = NewUpload::ThenJob{.options = "o", .trace = "trace"}});
   ASSERT_TRUE(begun.ok()) << begun.status();
   EXPECT_EQ(Rows().at(0).state, JobState::kReceiving);
   EXPECT_EQ(Rows().at(0).trace, "trace");
 }
 
 TEST_F(DurableReportsTest, TheEndAlsoToWhoKnowsIt) {
-  const std::string job = EndedJob();
+  const std::string job = EndedTracedJob();
   const uint64_t last = GetJob("clinic", job)->sequence;
   for (const uint64_t after : {last, last + 1, ~uint64_t{0}}) {
     const auto events = WatchToTheEnd("clinic", job, after)->events();
@@ -92,8 +91,7 @@ TEST_F(DurableReportsTest, TheEndAlsoToWhoKnowsIt) {
 TEST_F(DurableReportsTest, TheEndToWhoWaitsForLaterEventsThanThereWillBe) {
   runner_->Hold();
   const std::string job = CreateName("clinic", TracedJob());
-  auto watcher = std::make_shared<RememberingWatcher>();
-  const auto handle = durable_jobs_->WatchJob("clinic", job, 1000, watcher);
+  const auto [watcher, handle] = Watch("clinic", job, 1000);
   runner_->WaitForComputing(1);
   runner_->Release();
   EXPECT_TRUE(watcher->WaitForEnd().ok());

@@ -39,20 +39,20 @@ TEST_F(DurableResultsTest, GivesAnEqualJobTheStoredResult) {
 }
 
 TEST_F(DurableResultsTest, GivesAnEqualVolumeInAnotherEncodingTheStoredResult) {
-  WaitForEnd("clinic", CreateName("clinic", JobOf(Upload("clinic", "volume|raw"))));
-  const std::string again = CreateName("clinic", JobOf(Upload("clinic", "volume|zipped")));
+  WaitForEnd("clinic", MakeJob("volume|raw"));
+  const std::string again = MakeJob("volume|zipped");
   EXPECT_EQ(WaitForEnd("clinic", again).state, JobState::kSucceeded);
   Close();  // a result that came too late is then gone
   EXPECT_THAT(FilesIn("results"), SizeIs(1));
 }
 
 TEST_F(DurableResultsTest, DoesNotGiveResultsOfAnotherAlgorithmOrTenant) {
-  WaitForEnd("clinic", CreateName("clinic", JobOf(Upload("clinic", "volume"))));
+  EndedJob();
   WaitForEnd("other", CreateName("other", JobOf(Upload("other", "volume"))));
   Close();
   options_.algorithm_version = "2";
   Open();
-  WaitForEnd("clinic", CreateName("clinic", JobOf(Upload("clinic", "volume"))));
+  EndedJob();
   EXPECT_EQ(runner_->computed(), 3);
 }
 
@@ -89,7 +89,7 @@ TEST_F(DurableResultsTest, WaitsForARunnerThatIsBusy) {
 
 TEST_F(DurableResultsTest, WaitsForTheMemoryThatItLackedWhileItRan) {
   runner_->RunShort(100);
-  const std::string job = CreateName("clinic", JobOf(Upload("clinic", "volume")));
+  const std::string job = MakeJob();
   JobInfo waiting = *GetJob("clinic", job);
   while (waiting.attempts == 0 || waiting.state == JobState::kRunning) {
     waiting = *GetJob("clinic", job);
@@ -105,7 +105,7 @@ TEST_F(DurableResultsTest, WaitsForTheMemoryThatItLackedWhileItRan) {
 }
 
 TEST_F(DurableResultsTest, FailsWithTheRunnersError) {
-  const std::string job = CreateName("clinic", JobOf(Upload("clinic", "bad!")));
+  const std::string job = MakeJob("bad!");
   const JobInfo ended = WaitForEnd("clinic", job);
   EXPECT_EQ(ended.state, JobState::kFailed);
   EXPECT_EQ(ended.error.code(), absl::StatusCode::kInvalidArgument);
@@ -132,8 +132,7 @@ TEST_F(DurableResultsTest, TellsADamagedVolumeThatCannotBeDecodedFromOneThatCame
 }
 
 TEST_F(DurableResultsTest, TellsADamagedResult) {
-  const std::string job = CreateName("clinic", JobOf(Upload("clinic", "volume")));
-  WaitForEnd("clinic", job);
+  const std::string job = EndedJob();
   FlipABit(FilesIn("results").at(0));
   EXPECT_EQ(ReadResult("clinic", job).status().code(), absl::StatusCode::kDataLoss);
 }
@@ -154,42 +153,34 @@ TEST_F(DurableResultsTest, MakesADamagedResultAnewAndHealsAllWhoShareIt) {
   }
   EXPECT_THAT(FilesIn("results"), SizeIs(1));
   const uint64_t used = durable_jobs_->usage().disk_bytes;
-  Close();
-  Open();
+  Reopen();
   EXPECT_EQ(durable_jobs_->usage().disk_bytes, used);
 }
 
 TEST_F(DurableResultsTest, KnowsNoVolumeWhoseFileIsGone) {
   const std::string volume = Upload("clinic", "volume");
   const std::string digest = Sha256Of("volume").Hex();
-  const auto find = [&] {
-    return Get<std::vector<VolumeInfo>>(
-        [&](auto done) { durable_jobs_->FindVolumes("clinic", {digest}, done); });
-  };
-  EXPECT_THAT(*find(), SizeIs(1));
+  EXPECT_THAT(*Find("clinic", digest), SizeIs(1));
   std::filesystem::remove(FilesIn("blobs").at(0));
-  EXPECT_THAT(*find(), IsEmpty());
+  EXPECT_THAT(*Find("clinic", digest), IsEmpty());
   EXPECT_EQ(ReasonOf(Create("clinic", JobOf(volume)).status()), Reason::kVolumeMissing);
   EXPECT_EQ(Upload("clinic", "volume"), volume);
-  EXPECT_THAT(*find(), SizeIs(1));
+  EXPECT_THAT(*Find("clinic", digest), SizeIs(1));
 }
 
 TEST_F(DurableResultsTest, LetsNothingExpireByAClockThatHasLeapt) {
   Close();
   options_.max_clock_leap = std::chrono::hours(24);
   Open();
-  const std::string job = CreateName("clinic", JobOf(Upload("clinic", "volume")));
-  WaitForEnd("clinic", job);
+  const std::string job = EndedJob();
   Close();
   Wait(std::chrono::hours(24 * 365));
   Open();
   EXPECT_TRUE(GetJob("clinic", job).ok()) << "the clock was wrong when the server started";
-  Close();
-  Open();
+  Reopen();
   EXPECT_TRUE(GetJob("clinic", job).ok()) << "another start does not make it right";
   Wait(-std::chrono::hours(24 * 365));
-  Close();
-  Open();
+  Reopen();
   EXPECT_EQ(GetJob("clinic", job)->state, JobState::kSucceeded);
   EXPECT_THAT(*ReadResult("clinic", job), SizeIs(4));
 }
@@ -214,7 +205,7 @@ TEST_F(DurableResultsTest, FailsAJobWhoseResultDoesNotFitOnTheDisk) {
   Close();
   options_.max_disk_bytes = 20;
   Open();
-  const std::string job = CreateName("clinic", JobOf(Upload("clinic", "volume")));
+  const std::string job = MakeJob();
   const JobInfo ended = WaitForEnd("clinic", job);
   EXPECT_EQ(ended.state, JobState::kFailed);
   EXPECT_EQ(ended.error.code(), absl::StatusCode::kResourceExhausted);
@@ -223,11 +214,9 @@ TEST_F(DurableResultsTest, FailsAJobWhoseResultDoesNotFitOnTheDisk) {
 }
 
 TEST_F(DurableResultsTest, ForgetsResultsAfterTheirTime) {
-  const std::string job = CreateName("clinic", JobOf(Upload("clinic", "volume")));
-  WaitForEnd("clinic", job);
+  const std::string job = EndedJob();
   Wait(options_.keep_results + std::chrono::seconds(10));
-  Close();
-  Open();
+  Reopen();
   EXPECT_EQ(GetJob("clinic", job).status().code(), absl::StatusCode::kNotFound);
   EXPECT_THAT(FilesIn("results"), IsEmpty());
 }

@@ -25,22 +25,16 @@ class DurableUploadsTest : public DurableTest {
   void SetUp() override { Open(); }
 
   std::string Begin(const std::string& tenant, const std::string& name, uint64_t size) {
-    const auto upload =
-        CreateUpload(tenant, {.name = name, .declaration = std::to_string(size), .then_job = {}});
+    const auto upload = CreateUpload(tenant, {.name = name, .declaration = std::to_string(size)});
     EXPECT_TRUE(upload.ok()) << upload.status();
     return upload.ok() ? upload->name : std::string();
   }
   UploadInfo BeginWithJob(const std::string& name, uint64_t size) {
-    NewUpload upload = {.name = name, .declaration = std::to_string(size), .then_job = {}};
-    upload.then_job = NewUpload::ThenJob{.options = "o"};
-    const auto info = CreateUpload("clinic", upload);
+    const auto info = CreateUpload("clinic", {.name = name,
+                                              .declaration = std::to_string(size),
+                                              .then_job = NewUpload::ThenJob{.options = "o"}});
     EXPECT_TRUE(info.ok()) << info.status();
     return *info;
-  }
-  absl::StatusOr<std::vector<VolumeInfo>> Find(const std::string& tenant,
-                                               const std::string& digest) {
-    return Get<std::vector<VolumeInfo>>(
-        [&](auto done) { durable_jobs_->FindVolumes(tenant, {digest}, done); });
   }
 };
 
@@ -81,7 +75,7 @@ TEST_F(DurableUploadsTest, RefusesAChunkWithAnotherChecksumAndKeepsTheRest) {
 }
 
 TEST_F(DurableUploadsTest, NamesNoFileThatIsGone) {
-  const auto upload = CreateUpload("clinic", {.name = {}, .declaration = "9", .then_job = {}});
+  const auto upload = CreateUpload("clinic", {.declaration = "9"});
   for (const std::string& file : FilesIn("uploads")) std::filesystem::remove(file);
   const absl::Status status = Append("clinic", upload->name, 0, "x").status();
   EXPECT_EQ(status, absl::NotFoundError("there is no upload " + upload->name));
@@ -113,11 +107,9 @@ TEST_F(DurableUploadsTest, GoesOnAfterACrash) {
 TEST_F(DurableUploadsTest, BeginsTheSameUploadOnce) {
   Begin("clinic", "uploads/a", 10);
   ASSERT_TRUE(Append("clinic", "uploads/a", 0, "1234").ok());
-  const auto again =
-      CreateUpload("clinic", {.name = "uploads/a", .declaration = "10", .then_job = {}});
+  const auto again = CreateUpload("clinic", {.name = "uploads/a", .declaration = "10"});
   EXPECT_EQ(again->committed_bytes, 4u);
-  const auto other =
-      CreateUpload("clinic", {.name = "uploads/a", .declaration = "11", .then_job = {}});
+  const auto other = CreateUpload("clinic", {.name = "uploads/a", .declaration = "11"});
   EXPECT_EQ(other.status().code(), absl::StatusCode::kAlreadyExists);
   EXPECT_EQ(Append("clinic", "uploads/a", 4, "567890").value_or(0), 10u) << "it goes on";
   Begin("other", "uploads/a", 11);
@@ -125,14 +117,12 @@ TEST_F(DurableUploadsTest, BeginsTheSameUploadOnce) {
 
 TEST_F(DurableUploadsTest, RefusesBadNamesAndDeclarations) {
   for (const char* name : {"x", "uploads/", "uploads/a/b", "uploads/..", "uploads/\n"}) {
-    EXPECT_EQ(
-        CreateUpload("clinic", {.name = name, .declaration = "1", .then_job = {}}).status().code(),
-        absl::StatusCode::kInvalidArgument)
+    EXPECT_EQ(CreateUpload("clinic", {.name = name, .declaration = "1"}).status().code(),
+              absl::StatusCode::kInvalidArgument)
         << name;
   }
-  EXPECT_EQ(
-      CreateUpload("clinic", {.name = {}, .declaration = "?", .then_job = {}}).status().code(),
-      absl::StatusCode::kInvalidArgument);
+  EXPECT_EQ(CreateUpload("clinic", {.declaration = "?"}).status().code(),
+            absl::StatusCode::kInvalidArgument);
 }
 
 TEST_F(DurableUploadsTest, DropsAnUploadWithAnotherDigestThanStated) {
@@ -153,8 +143,7 @@ TEST_F(DurableUploadsTest, HidesEverythingFromOtherTenants) {
   EXPECT_THAT(*Find("other", Sha256Of("same").Hex()), IsEmpty());
   EXPECT_EQ(Upload("other", "same"), volume) << "names say nothing but the content";
   EXPECT_THAT(FilesIn("blobs"), SizeIs(2)) << "yet each has its own bytes";
-  EXPECT_TRUE(
-      GetStatus([&](auto done) { durable_jobs_->DeleteVolume("other", volume, done); }).ok());
+  EXPECT_TRUE(DeleteVolume("other", volume).ok());
   EXPECT_THAT(*Find("clinic", Sha256Of("same").Hex()), SizeIs(1));
 }
 
@@ -162,10 +151,10 @@ TEST_F(DurableUploadsTest, ErasesTheBytesOfADeletedVolumeUnlessAnotherHasThem) {
   const std::string one = Upload("clinic", "same", " one"), two = Upload("clinic", "same", " two");
   EXPECT_NE(one, two);
   EXPECT_THAT(FilesIn("blobs"), SizeIs(1));
-  EXPECT_TRUE(GetStatus([&](auto done) { durable_jobs_->DeleteVolume("clinic", one, done); }).ok());
+  EXPECT_TRUE(DeleteVolume("clinic", one).ok());
   EXPECT_THAT(FilesIn("blobs"), SizeIs(1));
   EXPECT_EQ(durable_jobs_->usage().disk_bytes, 4u);
-  EXPECT_TRUE(GetStatus([&](auto done) { durable_jobs_->DeleteVolume("clinic", two, done); }).ok());
+  EXPECT_TRUE(DeleteVolume("clinic", two).ok());
   EXPECT_THAT(FilesIn("blobs"), IsEmpty());
   EXPECT_EQ(durable_jobs_->usage().disk_bytes, 0u);
 }
@@ -176,14 +165,11 @@ TEST_F(DurableUploadsTest, CountsUploadsByTheirDeclaredSize) {
   options_.max_tenant_disk_bytes = 60;
   Open();
   Begin("clinic", "uploads/a", 50);
-  const absl::Status own =
-      CreateUpload("clinic", {.name = {}, .declaration = "11", .then_job = {}}).status();
+  const absl::Status own = CreateUpload("clinic", {.declaration = "11"}).status();
   EXPECT_EQ(own.code(), absl::StatusCode::kResourceExhausted);
   EXPECT_EQ(DetailsOf(own).quota, "max_tenant_disk_bytes");
-  EXPECT_EQ(
-      DetailsOf(CreateUpload("other", {.name = {}, .declaration = "51", .then_job = {}}).status())
-          .quota,
-      "max_disk_bytes");
+  EXPECT_EQ(DetailsOf(CreateUpload("other", {.declaration = "51"}).status()).quota,
+            "max_disk_bytes");
   EXPECT_TRUE(
       GetStatus([&](auto done) { durable_jobs_->DeleteUpload("clinic", "uploads/a", done); }).ok());
   Begin("clinic", "", 60);
@@ -197,8 +183,7 @@ TEST_F(DurableUploadsTest, ForgetsUploadsAndVolumesThatNobodyUses) {
   const JobInfo job = WaitForEnd("clinic", receiving.job);
   EXPECT_EQ(job.state, JobState::kFailed);
   EXPECT_EQ(job.error.code(), absl::StatusCode::kDeadlineExceeded);
-  Close();
-  Open();  // cleans up what is left
+  Reopen();  // cleans up what is left
   EXPECT_EQ(GetUpload("clinic", "uploads/a").status().code(), absl::StatusCode::kNotFound);
   EXPECT_THAT(FilesIn("uploads"), IsEmpty());
   EXPECT_EQ(durable_jobs_->usage().disk_bytes, 0u);
@@ -250,8 +235,8 @@ TEST_F(DurableUploadsTest, EndsAJobWhoseVolumeIsMalformed) {
 
 TEST_F(DurableUploadsTest, TellsTheRunnersRefusalBeforeAnythingIsStored) {
   runner_->Refuse(CallError(Reason::kQueueFull, "full"));
-  NewUpload upload = {.name = "uploads/a", .declaration = "6", .then_job = {}};
-  upload.then_job = NewUpload::ThenJob{.options = {}};
+  const NewUpload upload = {
+      .name = "uploads/a", .declaration = "6", .then_job = NewUpload::ThenJob{.options = {}}};
   EXPECT_EQ(ReasonOf(CreateUpload("clinic", upload).status()), Reason::kQueueFull);
   EXPECT_EQ(GetUpload("clinic", "uploads/a").status().code(), absl::StatusCode::kNotFound);
   EXPECT_EQ(durable_jobs_->usage().disk_bytes, 0u);
@@ -276,9 +261,7 @@ TEST_F(DurableUploadsTest, AdmitsNothingNewOnceItIsToStop) {
   const std::string volume = Upload("clinic", "volume");
   durable_jobs_->StopAdmitting();
   EXPECT_EQ(ReasonOf(Create("clinic", JobOf(volume)).status()), Reason::kDraining);
-  EXPECT_EQ(
-      ReasonOf(CreateUpload("clinic", {.name = {}, .declaration = "1", .then_job = {}}).status()),
-      Reason::kDraining);
+  EXPECT_EQ(ReasonOf(CreateUpload("clinic", {.declaration = "1"}).status()), Reason::kDraining);
 }
 
 }  // namespace
