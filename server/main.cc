@@ -127,7 +127,7 @@ int Main(int argc, char** argv) {
   auto parsed = ParseServerConfig(argc, argv);
   if (const auto* exit = std::get_if<ExitRequest>(&parsed)) return Print(*exit);
   auto& config = std::get<ServerConfig>(parsed);
-  config.limits.decode_in_children = DecodeInChildren::kOpenExr;
+  config.limits.child_command = ThisProgramAsChild();
   return Serve(config);
 }
 

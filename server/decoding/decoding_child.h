@@ -13,7 +13,8 @@ inline constexpr const char* kChildArgument = "--decoding-child";
 // Exit code of a child that runs out of memory.
 inline constexpr int kChildOutOfMemory = 3;
 
-// The command that starts the running program as a child.
+// The command that starts the running program as a child. Needs: RunIfDecodingChild() in its
+// main().
 std::vector<std::string> ThisProgramAsChild();
 
 // Irrevocably gives up what decoding does not need: new privileges, files, core dumps, executable

@@ -39,9 +39,8 @@ JobPool::JobPool(const Limits& limits, JobObserver observer)
                   .tenants = limits.tenants},
                  [] { malloc_trim(0); }),
       compute_(limits.threads, limits.max_jobs, limits.tenants),
-      children_(limits.decode_in_children == DecodeInChildren::kOpenExr
-                    ? std::make_unique<ChildPool>(limits.child_command)
-                    : nullptr),
+      children_(limits.child_command.empty() ? nullptr
+                                             : std::make_unique<ChildPool>(limits.child_command)),
       decoders_(kDecoderThreads, limits.tenants),
       finishers_(std::max(kDecoderThreads, limits.threads), limits.tenants) {}
 

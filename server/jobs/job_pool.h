@@ -9,17 +9,12 @@
 
 #include "server/admission/admission.h"
 #include "server/decoding/child_pool.h"
-#include "server/decoding/decoding_child.h"
 #include "server/jobs/compute_queue.h"
 #include "server/jobs/job_runner.h"
 #include "server/jobs/task_threads.h"
 #include "server/jobs/volume_receiver.h"
 
 namespace bccskel::server {
-
-// What to decode in child processes (decoding/child_pool.h). Needs a program that begins with
-// RunIfDecodingChild().
-enum class DecodeInChildren { kNothing, kOpenExr };
 
 // Runs jobs in this process: admits them, decodes on its own threads and computes on those of a
 // ComputeQueue. Jobs end with the process.
@@ -33,8 +28,9 @@ class JobPool : public JobRunner {
     uint64_t max_volume_bytes = 0;  // encoded, of one job
     VolumeLimits volume;
     TenantTable tenants = {};
-    DecodeInChildren decode_in_children = DecodeInChildren::kNothing;
-    std::vector<std::string> child_command = ThisProgramAsChild();
+    // Of child processes that decode OpenEXR (decoding/child_pool.h), such as ThisProgramAsChild();
+    // empty: this process decodes it.
+    std::vector<std::string> child_command = {};
 
     // Errors: RESOURCE_EXHAUSTED for a volume over the limit.
     absl::Status CheckVolumeBytes(uint64_t size_bytes) const;

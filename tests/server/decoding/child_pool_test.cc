@@ -14,17 +14,12 @@
 #include "server/decoding/decoding_child.h"
 #include "server/errors/call_error.h"
 #include "tests/server/decoding/faulty_children.h"
+#include "tests/support/sanitized.h"
 
 namespace bccskel::server {
 namespace {
 
-using test::ChildWith;
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kSanitized = true;
-#else
-constexpr bool kSanitized = false;
-#endif
+using test::ChildWith, test::kSanitized;
 
 const Volume& Torus() {
   static const Volume torus = *GenerateShape(Shape::kTorus, {.points = 20'000});

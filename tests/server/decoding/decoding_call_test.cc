@@ -4,6 +4,7 @@
 #include <string>
 
 #include "proto/wire/error_details.h"
+#include "server/decoding/decoding_child.h"
 #include "server/errors/call_error.h"
 #include "tests/server/decoding/faulty_children.h"
 #include "tests/server/support/declared_volume.h"
@@ -23,7 +24,7 @@ test::DeclaredVolume TorusAs(VolumeCompression compression = VolumeCompression::
 
 server::ServerConfig ServerWithChildren() {
   server::ServerConfig config = test::SmallServer();
-  config.limits.decode_in_children = server::DecodeInChildren::kOpenExr;
+  config.limits.child_command = server::ThisProgramAsChild();
   return config;
 }
 
@@ -33,15 +34,15 @@ std::string WireReasonOf(const absl::Status& status) {
 }
 
 absl::Status Send(const server::Server& server, const test::DeclaredVolume& volume) {
-  return Converse(test::ConnectTo(server.address()), test::RequestsFor(volume)).status;
+  return Converse(server, test::RequestsFor(volume)).status;
 }
 
 TEST(DecodingCall, GivesTheSkeletonOfThisProcess) {
   const auto with = test::StartServer(ServerWithChildren());
   const auto without = test::StartServer();
   const auto requests = test::RequestsFor(TorusAs());
-  const auto there = SkeletonOf(Converse(test::ConnectTo(with->address()), requests));
-  const auto here = SkeletonOf(Converse(test::ConnectTo(without->address()), requests));
+  const auto there = SkeletonOf(Converse(*with, requests));
+  const auto here = SkeletonOf(Converse(*without, requests));
   ASSERT_TRUE(there.ok()) << there.status();
   ASSERT_TRUE(here.ok()) << here.status();
   EXPECT_EQ(there->sha256, here->sha256);
@@ -55,7 +56,7 @@ TEST_P(FaultyChildCall, EndsTheCallAndNotTheServer) {
     GTEST_SKIP() << "sanitizers need memory and system calls of their own";
   }
 #endif
-  server::ServerConfig config = ServerWithChildren();
+  server::ServerConfig config = test::SmallServer();
   config.limits.child_command = test::ChildWith(GetParam());
   {
     const auto server = test::StartServer(config);
@@ -72,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(Faults, FaultyChildCall, testing::ValuesIn(test::kChild
                          [](const auto& test) { return test.param; });
 
 TEST(DecodingCall, WithoutAProgramToStartTheCallerIsAskedToComeAgain) {
-  server::ServerConfig config = ServerWithChildren();
+  server::ServerConfig config = test::SmallServer();
   config.limits.child_command = {"/no/such/program"};
   const auto server = test::StartServer(config);
   const absl::Status status = Send(*server, TorusAs());
