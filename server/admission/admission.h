@@ -79,7 +79,6 @@ class Admission {
   // Errors: a CallError: kVolumeTooLarge if the job could never be admitted, else kQueueFull,
   //         kMemoryBusy with NeededBytesOf() or kDraining.
   absl::StatusOr<Ticket> Admit(const std::string& tenant, uint64_t bytes);
-  absl::StatusOr<Ticket> Admit(uint64_t bytes) { return Admit(std::string(), bytes); }
 
   // Applies to later jobs; admitted ones keep what they hold.
   void SetTenants(const TenantTable& tenants);

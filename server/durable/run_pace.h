@@ -15,7 +15,7 @@ class RunPace {
   using Clock = std::chrono::steady_clock;
   static constexpr int kMostAhead = 8;
 
-  explicit RunPace(std::chrono::milliseconds soon = std::chrono::milliseconds(50)) : soon_(soon) {}
+  explicit RunPace(std::chrono::milliseconds soon) : soon_(soon) {}
 
   // A run that received its volume at `fed` has been computed at `now`.
   void Computed(Clock::time_point fed, Clock::time_point now) {

@@ -16,29 +16,29 @@ using Usage = Admission::Usage;
 
 TEST(Admission, CountsBytesAndPlaces) {
   Admission admission({.bytes = 100, .places = 3});
-  const auto first = admission.Admit(60);
+  const auto first = admission.Admit("", 60);
   ASSERT_TRUE(first.ok());
   EXPECT_EQ(admission.usage(), (Usage{.bytes = 60, .places = 1}));
-  const auto second = admission.Admit(40);
+  const auto second = admission.Admit("", 40);
   ASSERT_TRUE(second.ok());
   EXPECT_EQ(admission.usage(), (Usage{.bytes = 100, .places = 2}));
 }
 
 TEST(Admission, GivesBackWhenATicketIsDestroyed) {
   Admission admission({.bytes = 100, .places = 1});
-  { const auto ticket = admission.Admit(100); }
+  { const auto ticket = admission.Admit("", 100); }
   EXPECT_EQ(admission.usage(), Usage());
 }
 
 TEST(Admission, ReclaimsFreedMemoryBeforeItCouldExceedTheLimit) {
   int reclaimed = 0;
   Admission admission({.bytes = 100, .places = 9}, [&] { ++reclaimed; });
-  { const auto ticket = admission.Admit(40); }  // 40 may be kept
-  { const auto ticket = admission.Admit(60); }  // 40 + 60, then 100
+  { const auto ticket = admission.Admit("", 40); }  // 40 may be kept
+  { const auto ticket = admission.Admit("", 60); }  // 40 + 60, then 100
   EXPECT_EQ(reclaimed, 0);
-  const auto third = admission.Admit(1);
+  const auto third = admission.Admit("", 1);
   EXPECT_EQ(reclaimed, 1);
-  auto fourth = *admission.Admit(99);
+  auto fourth = *admission.Admit("", 99);
   EXPECT_EQ(reclaimed, 1);
   fourth.ShrinkTo(49);
   ASSERT_TRUE(fourth.ResizeTo(50).ok());  // 50 may be kept, and 51 are in use
@@ -47,10 +47,10 @@ TEST(Admission, ReclaimsFreedMemoryBeforeItCouldExceedTheLimit) {
 
 TEST(Admission, ATicketMovesWithoutBeingGivenBackTwice) {
   Admission admission({.bytes = 100, .places = 2});
-  Ticket ticket = *admission.Admit(70);
+  Ticket ticket = *admission.Admit("", 70);
   Ticket moved = std::move(ticket);
   EXPECT_EQ(admission.usage(), (Usage{.bytes = 70, .places = 1}));
-  moved = *admission.Admit(30);
+  moved = *admission.Admit("", 30);
   EXPECT_EQ(admission.usage(), (Usage{.bytes = 30, .places = 1}));
   moved = Ticket();
   EXPECT_EQ(admission.usage(), Usage());
@@ -58,7 +58,7 @@ TEST(Admission, ATicketMovesWithoutBeingGivenBackTwice) {
 
 TEST(Admission, APartOfATicketCanBeGivenBack) {
   Admission admission({.bytes = 100, .places = 1});
-  Ticket ticket = *admission.Admit(100);
+  Ticket ticket = *admission.Admit("", 100);
   ticket.ShrinkTo(10);
   ticket.ShrinkTo(50);
   EXPECT_EQ(admission.usage(), (Usage{.bytes = 10, .places = 1}));
@@ -70,8 +70,8 @@ TEST(Admission, APartOfATicketCanBeGivenBack) {
 
 TEST(Admission, ATicketGrowsWhileThereIsRoom) {
   Admission admission({.bytes = 100, .places = 2});
-  Ticket ticket = *admission.Admit(10);
-  const Ticket other = *admission.Admit(50);
+  Ticket ticket = *admission.Admit("", 10);
+  const Ticket other = *admission.Admit("", 50);
   EXPECT_TRUE(ticket.ResizeTo(50).ok());
   EXPECT_EQ(admission.usage(), (Usage{.bytes = 100, .places = 2}));
   const absl::Status busy = ticket.ResizeTo(51);
@@ -85,19 +85,19 @@ TEST(Admission, ATicketGrowsWhileThereIsRoom) {
 
 TEST(Admission, RefusesForGoodWhatCanNeverFit) {
   Admission admission({.bytes = 100, .places = 1});
-  const absl::Status status = admission.Admit(101).status();
+  const absl::Status status = admission.Admit("", 101).status();
   EXPECT_EQ(ReasonOf(status), Reason::kVolumeTooLarge);
   EXPECT_EQ(status.code(), absl::StatusCode::kResourceExhausted);
 }
 
 TEST(Admission, RefusesForNowWhenItIsFull) {
   Admission admission({.bytes = 100, .places = 2});
-  const auto first = admission.Admit(60);
-  const absl::Status memory = admission.Admit(60).status();
+  const auto first = admission.Admit("", 60);
+  const absl::Status memory = admission.Admit("", 60).status();
   EXPECT_EQ(ReasonOf(memory), Reason::kMemoryBusy);
   EXPECT_EQ(memory.code(), absl::StatusCode::kUnavailable);
-  const auto second = admission.Admit(1);
-  const absl::Status places = admission.Admit(1).status();
+  const auto second = admission.Admit("", 1);
+  const absl::Status places = admission.Admit("", 1).status();
   EXPECT_EQ(ReasonOf(places), Reason::kQueueFull);
   EXPECT_EQ(places.code(), absl::StatusCode::kUnavailable);
 }
@@ -166,10 +166,10 @@ TEST(Admission, CountsJobsUntilTheirResultsAreLetGoOf) {
   Admission admission({.bytes = 100, .places = 2});
   EXPECT_EQ(admission.jobs(), 0);
   {
-    Ticket unread = *admission.Admit(60);
+    Ticket unread = *admission.Admit("", 60);
     unread.LeavePlace();
     const Ticket moved = std::move(unread);
-    const Ticket at_work = *admission.Admit(10);
+    const Ticket at_work = *admission.Admit("", 10);
     EXPECT_EQ(admission.usage().places, 1);
     EXPECT_EQ(admission.jobs(), 2);
   }
@@ -191,7 +191,7 @@ TEST(Admission, ATicketKnowsItsTenantWhenItGrowsAndGoes) {
 TEST(Admission, RefusesEveryoneAfterStopAdmitting) {
   Admission admission({.bytes = 100, .places = 2});
   admission.StopAdmitting();
-  const absl::Status status = admission.Admit(1).status();
+  const absl::Status status = admission.Admit("", 1).status();
   EXPECT_EQ(ReasonOf(status), Reason::kDraining);
   EXPECT_EQ(status.code(), absl::StatusCode::kUnavailable);
 }
@@ -199,7 +199,7 @@ TEST(Admission, RefusesEveryoneAfterStopAdmitting) {
 TEST(Admission, WaitsUntilTheLastTicketIsGone) {
   Admission admission({.bytes = 100, .places = 2});
   admission.WaitUntilEmpty(std::chrono::hours(1));
-  auto ticket = admission.Admit(7);
+  auto ticket = admission.Admit("", 7);
   ASSERT_TRUE(ticket.ok());
   admission.WaitUntilEmpty(std::chrono::milliseconds(1));
   EXPECT_EQ(admission.usage(), (Usage{.bytes = 7, .places = 1}));

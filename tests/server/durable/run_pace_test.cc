@@ -18,7 +18,7 @@ class RunPaceTest : public testing::Test {
     }
   }
 
-  RunPace pace_;
+  RunPace pace_{std::chrono::milliseconds(50)};
   RunPace::Clock::time_point now_{std::chrono::hours(1)};
 };
 

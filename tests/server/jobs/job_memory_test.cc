@@ -121,7 +121,7 @@ TEST(JobMemory, ReservesWhatThePointsTakeUntilTheResultIsLetGoOf) {
 
 TEST(JobMemory, KeepsWhatTheJobWasPromisedUntilItsEnd) {
   Admission admission({.bytes = 100, .places = 1});
-  JobMemory memory(*admission.Admit(60), 60);
+  JobMemory memory(*admission.Admit("", 60), 60);
   ASSERT_TRUE(memory.SetBase(10).ok());
   ASSERT_TRUE(memory.Take(30, "points").ok());
   EXPECT_EQ(admission.usage().bytes, 60u);
