@@ -119,8 +119,9 @@ absl::Status ColoredError(size_t x, int32_t y, std::span<const unsigned> rgb) {
 
 absl::Status TransparentError(size_t x, int32_t y, unsigned alpha) {
   return absl::InvalidArgumentError(absl::StrFormat(
-      "pixel (%d, %d) is transparent (alpha %d), so its value is not certain: save the image "
-      "without transparency",
+      "pixel (%d, %d) is transparent (alpha %d), so its value is not certain: remove the "
+      "transparency (ImageMagick: convert IN.png -background black -alpha remove -alpha off "
+      "OUT.png), or, if it is the mask, take it (-alpha extract)",
       x, y, alpha));
 }
 
@@ -135,7 +136,9 @@ absl::Status TakeGray(const std::byte* row, const PngLayout& layout, int32_t y,
     const bool gray = layout.colors == 1 || (pixel[0] == pixel[1] && pixel[0] == pixel[2]);
     if (!gray) return ColoredError(x, y, std::array<unsigned, 3>{pixel[0], pixel[1], pixel[2]});
     const T alpha = layout.alpha ? pixel[layout.colors] : std::numeric_limits<T>::max();
-    if (alpha != std::numeric_limits<T>::max()) return TransparentError(x, y, alpha);
+    // Drawing programs leave the background so.
+    const bool nothing = alpha == 0 && pixel[0] == 0;
+    if (alpha != std::numeric_limits<T>::max() && !nothing) return TransparentError(x, y, alpha);
     grays[x] = pixel[0];
   }
   return absl::OkStatus();

@@ -71,9 +71,26 @@ TEST(Png, RefusesColorsAndTransparencyWithTheirPlace) {
                   {.width = 1, .color = PNG_COLOR_TYPE_RGB, .samples = {5, 5, 5, 255, 255, 254}})),
               HasSubstr("pixel (0, 1) has the color 255, 255, 254; masks and labels are read from "
                         "gray levels or the indices of a palette: save the image as gray"));
-  EXPECT_THAT(ErrorOfBytes(PngBytes(
-                  {.width = 1, .color = PNG_COLOR_TYPE_GRAY_ALPHA, .samples = {5, 255, 5, 0}})),
-              HasSubstr("pixel (0, 1) is transparent (alpha 0)"));
+  EXPECT_THAT(
+      ErrorOfBytes(
+          PngBytes({.width = 1, .color = PNG_COLOR_TYPE_GRAY_ALPHA, .samples = {5, 255, 5, 0}})),
+      HasSubstr("pixel (0, 1) is transparent (alpha 0), so its value is not certain: remove "
+                "the transparency (ImageMagick: convert IN.png -background black -alpha "
+                "remove -alpha off OUT.png), or, if it is the mask, take it (-alpha extract)"));
+}
+
+TEST(Png, TransparentBlackIsBackground) {
+  const auto image = ReadBytes(PngBytes({.width = 2,
+                                         .height = 1,
+                                         .color = PNG_COLOR_TYPE_RGBA,
+                                         .samples = {0, 0, 0, 0, 255, 255, 255, 255}}));
+  ASSERT_TRUE(image.ok()) << image.status();
+  EXPECT_THAT(image->values, ElementsAre(0, 255));
+  EXPECT_THAT(ErrorOfBytes(PngBytes({.width = 2,
+                                     .height = 1,
+                                     .color = PNG_COLOR_TYPE_RGBA,
+                                     .samples = {0, 0, 0, 0, 0, 0, 0, 110}})),
+              HasSubstr("pixel (1, 0) is transparent (alpha 110)"));
 }
 
 TEST(Png, ReadsAFileCompressedByGzipAsAWhole) {
