@@ -295,7 +295,7 @@ absl::StatusOr<std::string> SvgText(const SvgContent& content) {
   for (size_t n = 0; n < kPanels.size(); ++n) {
     BCCSKEL_RETURN_IF_ERROR(AddPanel(svg, scene, kPanels[n], views[n]));
   }
-  AddLegend(svg, scene.radii);
+  if (!content.result.nodes.empty()) AddLegend(svg, scene.radii);
   svg.Add("</svg>\n");
   return std::move(svg).Take();
 }

@@ -125,6 +125,7 @@ class Words {
   }
 
   void AddLegend(const ResultDocument& result) {
+    if (result.nodes.empty()) return;
     const exporting::RadiusRange radii = exporting::RadiusRangeOf(result);
     const double base = height_ - 1.8 * size_;
     double x = Label("radius " + Figure(radii.low), kMargin * size_, base);

@@ -189,7 +189,12 @@ TEST(PictureTest, ShowsEveryPointOfSheetsInEveryView) {
   EXPECT_EQ(DotsOf(SvgOf(box)), 3 * box.result.graph.sheets.size());
 }
 
-TEST(PictureTest, AnEmptyObjectHasOne) { EXPECT_THAT(SvgOf({}), HasSubstr("</svg>")); }
+TEST(PictureTest, AnEmptyObjectHasOneWithoutALegend) {
+  const std::string svg = SvgOf({});
+  EXPECT_THAT(svg, HasSubstr("</svg>"));
+  EXPECT_THAT(svg, Not(HasSubstr("radius ")));
+  EXPECT_THAT(svg, Not(HasSubstr("junction")));
+}
 
 }  // namespace
 }  // namespace bccskel::exporting

@@ -125,6 +125,15 @@ TEST(PictureTest, TheLegendHasEveryColorOfNodes) {
   EXPECT_NE(legend_with("closed_surface"), loop);
 }
 
+TEST(PictureTest, NothingHasNoLegend) {
+  const exporting::Sample nothing = {VolumeOfPoints({}), {}};
+  const Pixels picture = Decoded(*PictureOf(nothing, Small(), {}));
+  constexpr int kRowsOfLegend = 20;
+  const std::vector<uint32_t> legend(picture.values.end() - kRowsOfLegend * picture.width,
+                                     picture.values.end());
+  EXPECT_THAT(legend, testing::Each(picture.At(0, 0)));
+}
+
 TEST(PictureTest, StopsWhenItIsToldTo) {
   const exec::Context context = test::Stopped();
   const auto picture = PictureOf(exporting::SampleOf(Shape::kTorus), Small(), context);
