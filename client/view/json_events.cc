@@ -124,6 +124,12 @@ class Handler {
     return true;
   }
   bool parse_error(size_t at, const std::string& /*token*/, const std::exception& error) {
+    if (at > text_.size()) {
+      status_ = absl::InvalidArgumentError(
+          absl::StrCat("is incomplete: it breaks off after ", text_.size(),
+                       " bytes; copy it again, or make it again with `bccskel skeletonize`"));
+      return false;
+    }
     std::string_view why = error.what();  // "[json.exception.parse_error.101] parse error at ..."
     why.remove_prefix(std::min(why.find("] ") + 2, why.size()));
     return Fail(absl::StrCat("byte ", at, ": ", InAscii(why)));

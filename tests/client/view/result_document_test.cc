@@ -159,7 +159,11 @@ TEST(ResultDocumentTest, NamesThePlaceOfADefect) {
       {SmallWith("[null]", "\"\xff\""), "not a JSON result"},
       {SmallWith("[null]", "[[]"), "not a JSON result"},
       {std::string(kSmall) + "{}", "not a JSON result"},
-      {std::string(kSmall).substr(0, 100), "not a JSON result"},
+      {std::string(kSmall).substr(0, 100),
+       "is incomplete: it breaks off after 100 bytes; copy it again, or make it again with "
+       "`bccskel skeletonize`"},
+      {R"({"nodes":[{"kind":"en)", "is incomplete: it breaks off after 21 bytes"},
+      {R"({"nodes":[]}})", "not a JSON result of skeletonize or submit: byte 13"},
   };
   for (const auto& [text, message] : cases) {
     const absl::Status status = ParseResultDocument(text).status();
