@@ -75,6 +75,10 @@ void AppendItems(std::string& bytes, const std::vector<Item>& items) {
   }
 }
 
+bool IsFinite(const Vertex& vertex) {
+  return std::ranges::all_of(vertex.position, [](float along) { return std::isfinite(along); });
+}
+
 // A closed surface around a curve: the center of a cap, rings of vertices, the center of the other
 // cap.
 struct Tube {
@@ -329,7 +333,11 @@ absl::StatusOr<std::string> GlbBytes(const SkeletonGraph& graph, const GraphCont
     const std::vector<WorldPoint> smooth = SmoothCurve(graph, edge);
     const std::vector<CurvePoint> curve = SampledCurve(graph, edge, smooth);
     if (curve.empty()) continue;
-    scene.Add(maker.Around(curve));
+    const Tube tube = maker.Around(curve);
+    if (!std::ranges::all_of(tube.vertices, IsFinite)) {
+      return absl::InvalidArgumentError("the skeleton's coordinates do not fit a float32");
+    }
+    scene.Add(tube);
     scene.AddNode(BranchName(context.labels, n), FiguresOf(graph, edge, smooth));
   }
   constexpr size_t kHeads = 20;  // of the file and of the JSON chunk

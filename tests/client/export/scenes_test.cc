@@ -81,6 +81,14 @@ TEST(GlbTest, KeepsItsFigureFarFromTheOrigin) {
   }
 }
 
+TEST(GlbTest, RefusesWhatNoFloatHolds) {
+  SkeletonGraph graph = Lollipop();
+  graph.placement.spacing = {1e40, 1e40, 1e40};
+  const absl::Status status = GlbBytes(graph).status();
+  EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_EQ(status.message(), "the skeleton's coordinates do not fit a float32");
+}
+
 TEST(GlbTest, TurnsTheWorldUnlessItsYPointsUp) {
   const SkeletonGraph graph = Lollipop();
   const Json z_up = SceneOf(*GlbBytes(graph))["nodes"][0];
