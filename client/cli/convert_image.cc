@@ -134,6 +134,25 @@ absl::StatusOr<ImageObject> ConvertImage(ImageSource& source, const ImageArgumen
   return object;
 }
 
+namespace {
+
+// The error of a slice whose values are no labels, with the way to read gray levels. Reads the rest
+// of the image.
+absl::Status NotLabels(const absl::Status& error, ImageSource& source, int32_t slices_left,
+                       GrayLevels& levels) {
+  for (; slices_left > 0; --slices_left) {
+    BCCSKEL_ASSIGN_OR_RETURN(const ImageSlice slice, source.NextSlice());
+    levels.Add(slice);
+  }
+  const std::optional<double> threshold = levels.Threshold();
+  return absl::InvalidArgumentError(
+      absl::StrCat(error.message(), "; of gray levels, bccskel skeletonize --threshold ",
+                   threshold.has_value() ? absl::StrFormat("%g (Otsu's) ", *threshold) : "",
+                   "takes the brighter voxels for one object"));
+}
+
+}  // namespace
+
 absl::StatusOr<CollectedLabels> CollectLabels(ImageSource& source, const ImageArguments& arguments,
                                               uint64_t min_voxels, const exec::Context& context) {
   CollectedLabels labels = {.info = source.info(), .objects = {}};
@@ -141,12 +160,15 @@ absl::StatusOr<CollectedLabels> CollectLabels(ImageSource& source, const ImageAr
   BCCSKEL_ASSIGN_OR_RETURN(LabelCollector collector,
                            LabelCollector::Create(grid, {.labels = arguments.labels}));
   GrayLevels levels(labels.info.size);
+  int32_t slices_left = labels.info.size.nz;
   BCCSKEL_RETURN_IF_ERROR(ReadSlices(
       source, grid.VoxelsPerSlice(), context,
       [&](const ImageSlice& slice, std::span<uint64_t> values) {
+        --slices_left;
         levels.Add(slice);
         labels.not_numbers += CountNotNumbers(slice);
-        return LabelSlice(slice, values);
+        const absl::Status taken = LabelSlice(slice, values);
+        return taken.ok() ? taken : NotLabels(taken, source, slices_left, levels);
       },
       [&](std::span<const uint64_t> values) { return collector.AddSlice(values, context); }));
   BCCSKEL_ASSIGN_OR_RETURN(labels.objects, std::move(collector).Finish());

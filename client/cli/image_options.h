@@ -100,7 +100,7 @@ struct CollectedLabels {
 };
 
 // Collects the requested labels with at least `min_voxels` voxels; there may be none.
-// Errors: as NextSlice(), LabelSlice() and LabelCollector.
+// Errors: as NextSlice(), LabelCollector and LabelSlice(), this with a hint at --threshold.
 absl::StatusOr<CollectedLabels> CollectLabels(ImageSource& source, const ImageArguments& arguments,
                                               uint64_t min_voxels, const exec::Context& context);
 

@@ -3,6 +3,7 @@
 import csv
 import json
 import pathlib
+import re
 import xml.etree.ElementTree
 
 import harness
@@ -225,6 +226,19 @@ class LabelsTest(harness.TestCase):
             done = harness.bccskel("labels", self.image, "-o", self.path("a.vtp"))
             self.assertEqual(done.returncode, 3, done.stderr)
             self.assertIn(word, done.stderr)
+            self.assertIn("labels are whole numbers from 0 on; of gray levels, bccskel skeletonize "
+                          "--threshold takes the brighter voxels for one object\n", done.stderr)
+
+    def test_gray_levels_that_are_no_labels_come_with_a_threshold(self):
+        dark, bright = numpy.random.default_rng(1).random((2, 8, 40, 40))
+        image = numpy.concatenate((dark, 5 + bright), axis=2)
+        for values in (image - 3, (100 * image - 300).astype("i2")):
+            numpy.save(self.image, values)
+            done = self.fail_with(3, "labels are whole numbers", "labels", self.image,
+                                  "-o", self.path("a.vtp"))
+            threshold = float(re.search(r"--threshold (\S+) \(Otsu's\)", done.stderr)[1])
+            self.assertGreater(threshold, values[:, :, :40].max())
+            self.assertLess(threshold, values[:, :, 40:].min())
 
 
 if __name__ == "__main__":
