@@ -55,8 +55,8 @@ struct VoxelizeArguments {
   ImageArguments image;
 };
 
-// kHere: on this machine, because no place was given.
-enum class Place { kServer, kLocal, kHere };
+// Where to compute.
+enum class Place { kServer, kLocal };
 
 // Whether `submit` waits for the result, or prints the job's name and ends.
 enum class Waiting { kForResult, kDetach };

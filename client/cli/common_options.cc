@@ -113,7 +113,7 @@ CLI::Option* AddServer(CLI::App& command, ServerArguments& server) {
 void AddPlace(CLI::App& command, ServerArguments& server, Place& place) {
   CLI::Option_group& group = *command.add_option_group("Server", "Compute on a server instead");
   CLI::Option* address = AddServer(group, server);
-  place = Place::kHere;
+  place = Place::kLocal;
   group.parse_complete_callback([&group, &place] {
     if (group.count_all() > 0) place = Place::kServer;
   });

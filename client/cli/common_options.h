@@ -36,7 +36,7 @@ CLI::Option* AddSeconds(CLI::App& command, const char* name, std::chrono::millis
 // Adds --server and its companions; returns --server.
 CLI::Option* AddServer(CLI::App& command, ServerArguments& server);
 
-// --server and its companions, and --local: where to compute. kHere unless one is given.
+// --server and its companions, and --local: where to compute. kLocal unless a server is given.
 void AddPlace(CLI::App& command, ServerArguments& server, Place& place);
 
 // The options of skeletons, --threads, --progress, --timeout and --json.

@@ -346,9 +346,6 @@ ExitCode RunWith(const SharedWork* work, const SkeletonizeArguments& given,
   bar.Begin("reading", given.input);
   absl::StatusOr<Object> object = LoadOrMake(given, work, team.context());
   if (!object.ok()) return Fail(object.status());
-  if (given.place == Place::kHere) {
-    Note("computing on this machine, as with --local; --server HOST:PORT names a server");
-  }
   const SkeletonizeArguments arguments = ForInput(given, *object);
   if (arguments.waiting == Waiting::kDetach) {
     return SubmitDetached(arguments, object->volume, stop);

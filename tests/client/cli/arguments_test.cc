@@ -215,7 +215,7 @@ TEST(ArgumentsTest, SwcTakesAStep) {
 TEST(ArgumentsTest, DefaultsSuitAUserOfThisMachine) {
   const Parsed parsed = Parse("skeletonize a.off -o a.swc");
   const auto& arguments = parsed.as<SkeletonizeArguments>();
-  EXPECT_EQ(arguments.place, Place::kHere);
+  EXPECT_EQ(arguments.place, Place::kLocal);
   EXPECT_EQ(arguments.server.address, "127.0.0.1:50051");
   EXPECT_EQ(arguments.timeout, std::chrono::hours(1));
   EXPECT_EQ(arguments.common.threads, 0);
