@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "absl/strings/ascii.h"
+#include "absl/strings/numbers.h"
 #include "absl/strings/str_join.h"
 #include "absl/strings/str_split.h"
 #include "client/cli/console.h"
@@ -135,6 +136,12 @@ std::optional<Complaint> TooManyFiles(const std::vector<std::string>& rest,
   if (rest.size() == 1 && command.get_option_no_throw("--object") != nullptr) {
     return Complaint{what, "--object " + rest.front() +
                                " names the mesh, volume or image that the result was made from"};
+  }
+  double number = 0;
+  if (std::ranges::all_of(rest,
+                          [&](const auto& word) { return absl::SimpleAtod(word, &number); })) {
+    return Complaint{what,
+                     "separate the numbers of an option by commas, such as --voxel-size 1,1,2.5"};
   }
   const bool writes = command.get_option_no_throw("--output") != nullptr;
   return Complaint{

@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "absl/strings/numbers.h"
+#include "absl/strings/str_split.h"
 #include "client/cli/option_values.h"
 #include "core/exec/status_macros.h"
 #include "core/mask/mask_sampler.h"
@@ -43,22 +45,6 @@ void AddGrid(CLI::App& command, VoxelizeOptions& grid) {
 namespace {
 
 constexpr const char* kGroup = "Images";
-
-// Three numbers separated by commas.
-template <typename Number>
-CLI::Option* AddTriple(CLI::App& command, const char* name, const char* description,
-                       std::function<void(const std::array<Number, 3>&)> use) {
-  return command
-      .add_option_function<std::vector<Number>>(
-          name,
-          [use](const std::vector<Number>& values) {
-            use({values[0], values[1], values[2]});
-          },
-          description)
-      ->delimiter(',')
-      ->expected(3)
-      ->option_text("X,Y,Z");
-}
 
 // "7" or "3-9".
 void ReadLabels(const std::string& given, std::vector<uint64_t>& labels) {
@@ -165,9 +151,16 @@ RawLayout& RawOf(ImageArguments& arguments) {
 }
 
 void AddRaw(CLI::App& command, ImageArguments& arguments) {
-  CLI::Option* size = AddTriple<int64_t>(
-      command, "--raw-size", "Read raw voxels, this many along each axis",
-      [&arguments](const std::array<int64_t, 3>& n) { RawOf(arguments).size = n; });
+  CLI::Option* size = command
+                          .add_option_function<std::vector<int64_t>>(
+                              "--raw-size",
+                              [&arguments](const std::vector<int64_t>& n) {
+                                RawOf(arguments).size = {n[0], n[1], n[2]};
+                              },
+                              "Read raw voxels, this many along each axis")
+                          ->delimiter(',')
+                          ->expected(3)
+                          ->option_text("X,Y,Z");
   command
       .add_option_function<std::string>(
           "--raw-type",
@@ -202,6 +195,27 @@ absl::StatusOr<double> EndOf(std::string_view text, double open) {
   return absl::InvalidArgumentError("--range: '" + std::string(text) + "' is not a number");
 }
 
+// Errors: CLI::ValidationError.
+std::array<double, 3> VoxelSizeOf(const std::string& given) {
+  // Their squares and the sizes of images in such units fit a float, in which some formats store
+  // coordinates.
+  constexpr double kLeast = 1e-15, kMost = 1e15;
+  const std::vector<std::string> words = absl::StrSplit(given, ',');
+  if (words.size() != 1 && words.size() != 3) {
+    throw CLI::ValidationError("--voxel-size " + given +
+                               ": must be one number, or three separated by commas");
+  }
+  std::array<double, 3> spacing = {};
+  for (size_t axis = 0; axis < 3; ++axis) {
+    std::string word = words[axis % words.size()];
+    const std::string wrong = Within(kLeast, kMost)(word);
+    if (!wrong.empty() || !absl::SimpleAtod(word, &spacing[axis])) {
+      throw CLI::ValidationError("--voxel-size: " + wrong);
+    }
+  }
+  return spacing;
+}
+
 absl::StatusOr<ForegroundRule> RangeOf(std::string_view text) {
   const size_t comma = text.find(',');
   if (comma == text.npos || text.size() == 1) {
@@ -223,10 +237,12 @@ absl::StatusOr<ForegroundRule> UprightRule(const ImageArguments& arguments) {
 }  // namespace
 
 void AddImageLayout(CLI::App& command, ImageArguments& arguments) {
-  AddTriple<double>(command, "--voxel-size",
-                    "Spacing of the voxels, instead of the one in the file",
-                    [&arguments](const std::array<double, 3>& s) { arguments.open.spacing = s; })
-      ->check(Positive());
+  command
+      .add_option_function<std::string>(
+          "--voxel-size",
+          [&arguments](const std::string& given) { arguments.open.spacing = VoxelSizeOf(given); },
+          "Spacing of the voxels, instead of the one in the file: one number for cubes, or three")
+      ->option_text("X[,Y,Z]");
   const auto choose = [&command](const char* name, std::optional<int64_t>& chosen,
                                  const char* description) {
     AddCount<uint32_t>(

@@ -179,6 +179,14 @@ class FilesTest(harness.TestCase):
         numpy.testing.assert_array_equal(image, values)
         self.assertEqual(image.spacing, (3, 2, 1))
 
+    def test_one_number_is_the_size_of_cubes(self):
+        numpy.save(self.path("a.npy"), numpy.ones((2, 3, 4), "u1"))
+        for size in (0.5, numpy.float32(0.5)):
+            image = bccskel.read(self.path("a.npy"), voxel_size=size)
+            self.assertEqual(image.spacing, (0.5, 0.5, 0.5))
+        with self.assertRaisesRegex(ValueError, "voxel_size: must be 1e-15 to 1e[+]15, not nan"):
+            bccskel.read(self.path("a.npy"), voxel_size=float("nan"))
+
     def test_a_mesh_gives_the_command_line_s_skeleton(self):
         vertices, faces = box_mesh()
         with open(self.path("box.off"), "w") as file:

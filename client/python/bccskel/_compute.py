@@ -261,8 +261,8 @@ def read(path: _Path, **options: Unpack[FileOptions]) -> Union[Image, Mesh, Latt
     .exr or .bccb file is a `Lattice`.
 
     options, of images: channel and time (of TIFF and OME-Zarr), level (of folders),
-        series (of DICOM), array (of npz), voxel_size=(z, y, x), and raw_size=(z, y, x), raw_type,
-        raw_order and raw_header for files without a header.
+        series (of DICOM), array (of npz), voxel_size=(z, y, x) or one number for cubes, and
+        raw_size=(z, y, x), raw_type, raw_order and raw_header for files without a header.
 
     Raises FileNotFoundError, PermissionError; ValueError for a file of another kind or with an
     encoding that is not supported.

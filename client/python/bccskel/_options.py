@@ -65,7 +65,7 @@ class MeshOptions(SkeletonOptions, total=False):
 
 
 class FileOptions(TypedDict, total=False):
-    voxel_size: Tuple[float, float, float]
+    voxel_size: Union[float, Tuple[float, float, float]]
     channel: int
     time: int
     level: int
@@ -107,6 +107,8 @@ def texts_of(function: str, kind: str, options: Mapping[str, Any], to_xyz: list)
                 raise TypeError(f"{name} must be True or False, got {value!r}")
             if value:
                 texts.append((name, None))
+        elif name == "voxel_size" and isinstance(value, numbers.Real):
+            texts.append((name, _text(name, value)))
         elif name in _PLACES and not isinstance(value, str):
             if np.shape(value) != (3,) or not _finite(value):
                 raise ValueError(f"{name} must be 3 finite numbers, one per axis, got {value!r}")

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <fstream>
 
 #include "core/pipeline/presets.h"
@@ -210,6 +211,16 @@ TEST(ArgumentsTest, SwcTakesAStep) {
   EXPECT_EQ(step({}), std::nullopt);
   EXPECT_EQ(step({"--swc-step", "0"}), 0);
   EXPECT_EQ(step({"--swc-step", "2.5"}), 2.5);
+}
+
+TEST(ArgumentsTest, VoxelsHaveOneSizeOrThree) {
+  const auto spacing = [](const char* size) {
+    return Parse({"skeletonize", "--voxel-size", size, "a.tif", "-o", "a.swc"})
+        .as<SkeletonizeArguments>()
+        .image.open.spacing;
+  };
+  EXPECT_EQ(spacing("0.5"), (std::array{0.5, 0.5, 0.5}));
+  EXPECT_EQ(spacing("1,2,2.5e-9"), (std::array{1.0, 2.0, 2.5e-9}));
 }
 
 TEST(ArgumentsTest, DefaultsSuitAUserOfThisMachine) {
