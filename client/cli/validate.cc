@@ -10,6 +10,8 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "absl/strings/match.h"
+#include "absl/strings/str_join.h"
+#include "absl/strings/str_split.h"
 #include "client/cli/arguments.h"
 #include "client/cli/load_object.h"
 #include "client/cli/thinning_options.h"
@@ -204,6 +206,26 @@ std::vector<std::string> OutputsOf(const Chosen& arguments) {
   return paths;
 }
 
+// Refuses "a.swc,b.csv", but not "a,b.csv".
+template <typename Chosen>
+absl::Status CheckCommas(const std::string& path) {
+  std::vector<std::string> names;
+  for (const std::string& part : std::vector<std::string>(absl::StrSplit(path, ','))) {
+    if (names.empty() || exporting::SkeletonFormatOf(names.back()).ok()) {
+      names.push_back(part);
+    } else {
+      names.back() += "," + part;
+    }
+  }
+  if (names.size() == 1) return absl::OkStatus();
+  if (names.back().empty()) names.pop_back();
+  constexpr bool kSeveral = requires(const Chosen& chosen) { chosen.outputs; };
+  return absl::InvalidArgumentError(path + ": -o names one file" +
+                                    (kSeveral || names.size() == 1
+                                         ? "; write -o " + absl::StrJoin(names, " -o ")
+                                         : ", and this command writes one; run it for each"));
+}
+
 template <typename Chosen>
 absl::Status CheckFileNames(const Chosen& arguments) {
   std::vector<std::string> paths;
@@ -216,10 +238,12 @@ absl::Status CheckFileNames(const Chosen& arguments) {
   }
   paths = OutputsOf(arguments);
   for (const std::string& path : paths) {
-    if (!path.starts_with('=')) continue;
-    const std::string name = path.substr(1);
-    return absl::InvalidArgumentError(path + ": begins with '='; write -o " + name +
-                                      " or --output=" + name);
+    if (path.starts_with('=')) {
+      const std::string name = path.substr(1);
+      return absl::InvalidArgumentError(path + ": begins with '='; write -o " + name +
+                                        " or --output=" + name);
+    }
+    BCCSKEL_RETURN_IF_ERROR(CheckCommas<Chosen>(path));
   }
   if (std::ranges::count(paths, "-") == 0) return absl::OkStatus();
   return absl::InvalidArgumentError(

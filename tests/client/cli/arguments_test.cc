@@ -223,6 +223,11 @@ TEST(ArgumentsTest, VoxelsHaveOneSizeOrThree) {
   EXPECT_EQ(spacing("1,2,2.5e-9"), (std::array{1.0, 2.0, 2.5e-9}));
 }
 
+TEST(ArgumentsTest, OutputsMayHaveCommasInTheirNames) {
+  const Parsed parsed = Parse("skeletonize a.off -o a,b.swc -o ,.vtp");
+  EXPECT_THAT(parsed.as<SkeletonizeArguments>().outputs, ElementsAre("a,b.swc", ",.vtp"));
+}
+
 TEST(ArgumentsTest, DefaultsSuitAUserOfThisMachine) {
   const Parsed parsed = Parse("skeletonize a.off -o a.swc");
   const auto& arguments = parsed.as<SkeletonizeArguments>();
