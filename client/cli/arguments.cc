@@ -35,12 +35,19 @@ constexpr const char* kFooter =
     "not kept, 7 over a limit, 8 output cannot be written, 9 token missing, wrong or without\n"
     "permission, 130 interrupted (Ctrl-C), 143 terminated. See bccskel(1).";
 
-std::string HintFor(std::string_view error) {
+// Empty: none, because errors of values state the choice.
+std::string HintFor(std::string_view error, const CLI::App& command) {
   if (error == "--object is required") {
     return "--object names the mesh, volume or image that the result was made from; `bccskel view` "
            "and `bccskel render` show a result without it";
   }
-  return "see --help";
+  const auto says = [error](std::string_view what) { return error.find(what) != error.npos; };
+  if (!says(" is required") && !says(" has no option ") && !says("there is no command ")) return "";
+  std::string words = " --help";
+  for (const CLI::App* at = &command; at->get_parent() != nullptr; at = at->get_parent()) {
+    words = " " + at->get_name() + words;
+  }
+  return "see " + std::string(ProgramName()) + words;
 }
 
 // The number of letters to change, add or remove to turn one word into the other.
@@ -160,7 +167,7 @@ Complaint ComplaintAbout(const CLI::App& app, const CLI::Error& error) {
       exporting::SkeletonFormatOf(rest.front()).ok()) {
     return {what, "write -o before " + rest.front()};
   }
-  return {what, HintFor(what)};
+  return {what, HintFor(what, command)};
 }
 
 // They run as printed, where the files they name are there.
@@ -193,7 +200,9 @@ class CommandLine {
     app_.failure_message([](const CLI::App* app, const CLI::Error& error) {
       const Complaint complaint = ComplaintAbout(*app, error);
       const std::string name(ProgramName());
-      return name + ": error: " + complaint.what + "\n" + name + ": hint: " + complaint.hint + "\n";
+      std::string text = name + ": error: " + complaint.what + "\n";
+      if (!complaint.hint.empty()) text += name + ": hint: " + complaint.hint + "\n";
+      return text;
     });
   }
 

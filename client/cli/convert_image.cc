@@ -148,7 +148,8 @@ absl::Status NotLabels(const absl::Status& error, ImageSource& source, int32_t s
   return absl::InvalidArgumentError(
       absl::StrCat(error.message(), "; of gray levels, bccskel skeletonize --threshold ",
                    threshold.has_value() ? absl::StrFormat("%g (Otsu's) ", *threshold) : "",
-                   "takes the brighter voxels for one object"));
+                   "takes the brighter voxels for one object",
+                   levels.HasBothSigns() ? "; --below 0 takes the inside of a level set" : ""));
 }
 
 }  // namespace

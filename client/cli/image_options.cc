@@ -219,7 +219,9 @@ std::array<double, 3> VoxelSizeOf(const std::string& given) {
 absl::StatusOr<ForegroundRule> RangeOf(std::string_view text) {
   const size_t comma = text.find(',');
   if (comma == text.npos || text.size() == 1) {
-    return absl::InvalidArgumentError("--range needs LOW,HIGH, not '" + std::string(text) + "'");
+    return absl::InvalidArgumentError(
+        "--range " + std::string(text) +
+        ": needs LOW,HIGH, such as 5,5 for one value or 5, for all from it on");
   }
   BCCSKEL_ASSIGN_OR_RETURN(const double low, EndOf(text.substr(0, comma), -ForegroundRule::kOpen));
   BCCSKEL_ASSIGN_OR_RETURN(const double high, EndOf(text.substr(comma + 1), ForegroundRule::kOpen));

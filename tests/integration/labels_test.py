@@ -239,6 +239,7 @@ class LabelsTest(harness.TestCase):
             threshold = float(re.search(r"--threshold (\S+) \(Otsu's\)", done.stderr)[1])
             self.assertGreater(threshold, values[:, :, :40].max())
             self.assertLess(threshold, values[:, :, 40:].min())
+            self.assertIn("; --below 0 takes the inside of a level set\n", done.stderr)
 
 
 if __name__ == "__main__":

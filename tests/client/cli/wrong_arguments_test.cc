@@ -212,6 +212,8 @@ const Wrong kWrong[] = {
      "--threshold: cannot tell 18446744073709551615 from 18446744073709551616"},
     {"below_what_would_be_rounded", "skeletonize a.npy -o a.swc --below -9223372036854775807",
      "--below: cannot tell -9223372036854775807 from -9223372036854775808"},
+    {"range_of_one_number", "skeletonize a.npy -o a.swc --range 5",
+     "--range 5: needs LOW,HIGH, such as 5,5 for one value or 5, for all from it on"},
     {"threshold_in_words", "skeletonize a.tif -o a.swc --threshold high",
      "--threshold high: must be a number"},
     {"voxels_of_two_sizes", "skeletonize a.tif -o a.swc --voxel-size 1,2",

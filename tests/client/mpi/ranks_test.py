@@ -210,8 +210,8 @@ class Refusals(TestCase):
         self.assertIn("--swc-step", run_ranks(1, "--help").stdout)
 
     def test_options_that_are_none(self):
-        self.expect_refused(2, "bccskel-mpi: hint: see --help", "skeletonize", "a.exr", "-o",
-                            "a.swc", "--pints", 9)
+        self.expect_refused(2, "bccskel-mpi: hint: see bccskel-mpi skeletonize --help",
+                            "skeletonize", "a.exr", "-o", "a.swc", "--pints", 9)
 
     def test_input_that_is_not_there(self):
         self.expect_refused(3, "nothing.exr", "skeletonize", self.folder / "nothing.exr", "-o",
