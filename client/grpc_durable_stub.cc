@@ -15,7 +15,6 @@
 #include "client/grpc_status.h"
 #include "client/job_messages.h"
 #include "client/skeleton_reading.h"
-#include "client/volume_declaration.h"
 #include "core/digest/crc32c.h"
 #include "core/digest/sha256.h"
 #include "core/exec/status_macros.h"

@@ -15,7 +15,6 @@
 #include "client/labels_call.h"
 #include "client/skeletonize_client.h"
 #include "client/upload_call.h"
-#include "client/volume_declaration.h"
 #include "core/exec/status_macros.h"
 #include "core/io/volume_decoder.h"
 #include "proto/wire/options.h"

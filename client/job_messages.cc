@@ -2,13 +2,16 @@
 
 #include <google/protobuf/timestamp.pb.h>
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
 #include "proto/wire/enumerators.h"
 #include "proto/wire/error_details.h"
 #include "proto/wire/options.h"
+#include "proto/wire/placement.h"
 #include "proto/wire/result.h"
+#include "proto/wire/volume_encoding.h"
 
 namespace bccskel::client {
 namespace {
@@ -36,6 +39,16 @@ Time TimeOf(const google::protobuf::Timestamp& message) {
 }
 
 }  // namespace
+
+v1::VolumeDeclaration DeclarationOf(const EncodedVolume& volume) {
+  v1::VolumeDeclaration declaration;
+  declaration.set_encoding(wire::ToMessage(volume.encoding));
+  *declaration.mutable_extent() = wire::ToMessage(volume.extent);
+  declaration.set_size_bytes(volume.bytes.size());
+  // 0 would mean unknown.
+  declaration.set_max_bricks(std::max<uint64_t>(volume.bricks, 1));
+  return declaration;
+}
 
 v1::ThinVolumeReturn ToMessage(ThinVolume thin_volume) {
   return thin_volume == ThinVolume::kReturn ? v1::THIN_VOLUME_RETURN_BRICKS

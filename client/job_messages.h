@@ -4,9 +4,13 @@
 #include <optional>
 
 #include "bccskel/v1/job_service.pb.h"
+#include "bccskel/v1/volume.pb.h"
 #include "client/durable_job.h"
+#include "client/encoded_volume.h"
 
 namespace bccskel::client {
+
+v1::VolumeDeclaration DeclarationOf(const EncodedVolume& volume);
 
 // Convert jobs and reports about them to and from messages.
 v1::ThinVolumeReturn ToMessage(ThinVolume thin_volume);
