@@ -13,7 +13,6 @@
 #include <utility>
 #include <vector>
 
-#include "client/export/branch_name.h"
 #include "client/export/picture/display_curve.h"
 #include "client/export/sampled_curve.h"
 #include "client/export/text.h"

@@ -1,14 +1,31 @@
 #ifndef BCCSKEL_CLIENT_EXPORT_GRAPH_CONTEXT_H_
 #define BCCSKEL_CLIENT_EXPORT_GRAPH_CONTEXT_H_
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <stop_token>
+#include <string>
+#include <vector>
 
-#include "client/export/graph_labels.h"
 #include "client/export/method_facts.h"
 #include "core/skeleton/tree_order.h"
 
 namespace bccskel::exporting {
+
+// The label of each row of a graph. Empty for a graph of one object.
+struct GraphLabels {
+  std::vector<uint64_t> of_nodes;
+  std::vector<uint64_t> of_edges;
+  std::vector<uint64_t> of_sheets;  // by point
+};
+
+// "branch 7", or "label 3 branch 7" if there are labels; counted from 0.
+inline std::string BranchName(const GraphLabels& labels, size_t edge) {
+  std::string name = "branch " + std::to_string(edge);
+  if (labels.of_edges.empty()) return name;
+  return "label " + std::to_string(labels.of_edges[edge]) + " " + name;
+}
 
 // Additional facts about a graph. Each part may be missing.
 struct GraphContext {

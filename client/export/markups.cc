@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "client/export/branch_name.h"
 #include "client/export/picture/escape.h"
 #include "client/export/sampled_curve.h"
 #include "core/lattice/length_unit.h"

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "absl/status/statusor.h"
-#include "client/export/graph_labels.h"
+#include "client/export/graph_context.h"
 #include "client/export/sampled_curve.h"
 #include "client/export/world.h"
 #include "core/skeleton/skeleton_graph.h"
