@@ -2,6 +2,7 @@
 #define BCCSKEL_CLIENT_CLI_BENCH_CORE_H_
 
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -25,11 +26,10 @@ namespace bccskel::cli {
 
 using Milliseconds = std::chrono::duration<double, std::milli>;
 
-// The time from the solid to thin points. WholeTime() includes the certificate and the graph.
+// The time from the solid to thin points; the total includes the certificate and the graph.
 inline Milliseconds CoreTime(const StageTimings& timings) {
   return timings.distance + timings.shells + timings.thinning + timings.cleanup;
 }
-inline Milliseconds WholeTime(const StageTimings& timings) { return timings.total; }
 
 struct Spread {
   double min = 0;
