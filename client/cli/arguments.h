@@ -263,7 +263,7 @@ ExitCode Run(const FetchArguments& arguments, const std::stop_token& stop);
 ExitCode Run(const ProbeArguments& arguments, const std::stop_token& stop);
 ExitCode Run(const TopArguments& arguments, const std::stop_token& stop);
 
-// Work that several processes do together instead of this one.
+// Work that several processes do together. Empty: this process or a server does it alone.
 struct SharedWork {
   // Generates this process's part of the object instead of reading it; may be null.
   std::function<absl::StatusOr<Volume>(const exec::Context& context)> make;

@@ -157,13 +157,12 @@ absl::StatusOr<SkeletonizeResult> OnServer(const SkeletonizeArguments& arguments
   return client::SkeletonizeClient(std::move(stub)).Skeletonize(object, options);
 }
 
-// `work` may be null: this process computes alone.
 absl::StatusOr<SkeletonizeResult> OnThisMachine(const SkeletonizeArguments& arguments,
                                                 Volume& object, Listeners& listeners,
-                                                exec::Context context, const SharedWork* work) {
+                                                exec::Context context, const SharedWork& work) {
   context.deadline = Clock::now() + arguments.timeout;
   context.on_shell = listeners.bar.Callback("measuring distances");
-  if (work != nullptr) return work->compute(object, arguments.skeletonize, context);
+  if (work.compute) return work.compute(object, arguments.skeletonize, context);
   OnShellPoints on_points;
   if (listeners.shells.has_value()) {
     on_points = [&](int32_t shell, const Volume& points) {
@@ -179,7 +178,7 @@ struct Computed {
 };
 
 absl::StatusOr<Computed> Compute(const SkeletonizeArguments& arguments, Volume& object,
-                                 const exec::Context& context, const SharedWork* work,
+                                 const exec::Context& context, const SharedWork& work,
                                  ProgressBar& bar) {
   Listeners listeners(arguments, object, bar);
   const bool local = arguments.place != Place::kServer;
@@ -330,16 +329,17 @@ absl::StatusOr<Volume> LoadPart(const SkeletonizeArguments& arguments,
 
 namespace {
 
-absl::StatusOr<Object> LoadOrMake(const SkeletonizeArguments& arguments, const SharedWork* work,
+absl::StatusOr<Object> LoadOrMake(const SkeletonizeArguments& arguments, const SharedWork& work,
                                   const exec::Context& context) {
-  if (work == nullptr || !work->make) return Load(arguments, context);
-  BCCSKEL_ASSIGN_OR_RETURN(Volume volume, work->make(context));
+  if (!work.make) return Load(arguments, context);
+  BCCSKEL_ASSIGN_OR_RETURN(Volume volume, work.make(context));
   return Object{std::move(volume)};
 }
 
-// `work` may be null: this process computes alone, or a server does.
-ExitCode RunWith(const SharedWork* work, const SkeletonizeArguments& given,
-                 const std::stop_token& stop) {
+}  // namespace
+
+ExitCode RunShared(const SharedWork& work, const SkeletonizeArguments& given,
+                   const std::stop_token& stop) {
   const Clock::time_point start = Clock::now();
   LocalTeam team(given.common.threads, stop);
   ProgressBar bar(given.progress);
@@ -369,15 +369,8 @@ ExitCode RunWith(const SharedWork* work, const SkeletonizeArguments& given,
   return result->certificate.TopologyKept() ? printed : ExitCode::kInternal;
 }
 
-}  // namespace
-
 ExitCode Run(const SkeletonizeArguments& arguments, const std::stop_token& stop) {
-  return RunWith(nullptr, arguments, stop);
-}
-
-ExitCode RunShared(const SharedWork& work, const SkeletonizeArguments& arguments,
-                   const std::stop_token& stop) {
-  return RunWith(&work, arguments, stop);
+  return RunShared({}, arguments, stop);
 }
 
 }  // namespace bccskel::cli
