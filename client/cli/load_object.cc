@@ -354,8 +354,13 @@ ExitCode FailComputing(const ComputeArguments& arguments, const absl::Status& er
 absl::StatusOr<ResultAndObject> LoadResultAndObject(const ResultArguments& arguments,
                                                     const ProgressBar& bar,
                                                     const exec::Context& context) {
+  bar.Begin("reading", arguments.result);
   BCCSKEL_ASSIGN_OR_RETURN(view::ResultDocument result,
                            view::ReadResultDocument(arguments.result, context.stop));
+  if (arguments.object.empty()) {
+    return ResultAndObject{std::string(FileName(arguments.result)), std::move(result),
+                           std::nullopt};
+  }
   bar.Begin("reading", arguments.object);
   BCCSKEL_ASSIGN_OR_RETURN(Volume object, LoadPrepared(arguments, result, context));
   const absl::Status fits = CheckObjectFits(result, object);
@@ -365,7 +370,8 @@ absl::StatusOr<ResultAndObject> LoadResultAndObject(const ResultArguments& argum
     Warn(arguments.object + ": has " + exporting::GroupedDigits(points) + " points, but " +
          arguments.result + " was made from " + exporting::GroupedDigits(result.object_points));
   }
-  return ResultAndObject{std::move(result), std::move(object)};
+  return ResultAndObject{std::string(FileName(arguments.object)), std::move(result),
+                         std::move(object)};
 }
 
 }  // namespace bccskel::cli

@@ -71,10 +71,11 @@ std::string_view FileName(std::string_view path);
 absl::StatusOr<Volume> LoadObject(const std::string& path, const VoxelizeOptions& grid,
                                   const ImageArguments& image, const exec::Context& context);
 
-// A result and the object that it was made from.
+// A result and the object that it was made from, if given.
 struct ResultAndObject {
+  std::string title;  // the file name of the object, or of the result
   view::ResultDocument result;
-  Volume object;
+  std::optional<Volume> object;
 };
 
 // What computes on this machine instead of a server.
@@ -84,10 +85,10 @@ std::string_view LocalCommand(const SkeletonizeArguments& arguments);
 ExitCode FailComputing(const ComputeArguments& arguments, const absl::Status& error,
                        std::string_view local = "--local");
 
-// Reads both, each a phase of `bar`, and reproduces the object that was thinned: fills a mesh on a
-// grid of the result's spacing, unless the arguments give another, and repeats the preparation.
-// Warns if the number of points differs from the result's. Errors: those of ReadResultDocument(),
-// LoadObject(), Prepare() and CheckObjectFits(), with the
+// Reads both, each a phase of `bar`, if an object is given, and reproduces the object that was
+// thinned: fills a mesh on a grid of the result's spacing, unless the arguments give another, and
+// repeats the preparation. Warns if the number of points differs from the result's. Errors: those
+// of ReadResultDocument(), LoadObject(), Prepare() and CheckObjectFits(), with the
 //         path.
 absl::StatusOr<ResultAndObject> LoadResultAndObject(const ResultArguments& arguments,
                                                     const ProgressBar& bar,

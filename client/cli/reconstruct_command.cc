@@ -43,11 +43,10 @@ void AddReconstruct(CLI::App& command, ReconstructArguments& arguments) {
 ExitCode Run(const ReconstructArguments& arguments, const std::stop_token& stop) {
   LocalTeam team(arguments.common.threads, stop);
   const ProgressBar bar(ProgressStyle::kAuto);
-  bar.Begin("reading", arguments.result);
   const absl::StatusOr<ResultAndObject> loaded =
       LoadResultAndObject(arguments, bar, team.context());
   if (!loaded.ok()) return Fail(loaded.status());
-  const Volume& object = loaded->object;
+  const Volume& object = *loaded->object;  // it is required
   bar.Begin("filling the balls");
   const absl::StatusOr<Volume> balls =
       UnionOfBalls(view::BallsOf(loaded->result, object.placement()), object.extent(),

@@ -75,40 +75,27 @@ void AddPicture(CLI::App& command, view::PictureOptions& picture) {
       ->option_text("DEGREES");
 }
 
-// What is drawn; without an object the surface is empty.
-struct Shown {
-  std::string title;
-  view::ResultDocument result;
-  view::DisplaySurface surface;
-};
-
-absl::StatusOr<Shown> Load(const RenderArguments& arguments, const ProgressBar& bar,
-                           const exec::Context& context) {
-  if (arguments.object.empty()) {
-    BCCSKEL_ASSIGN_OR_RETURN(view::ResultDocument result,
-                             view::ReadResultDocument(arguments.result, context.stop));
-    return Shown{std::string(FileName(arguments.result)), std::move(result), {}};
-  }
-  BCCSKEL_ASSIGN_OR_RETURN(ResultAndObject loaded, LoadResultAndObject(arguments, bar, context));
+// Empty without an object.
+absl::StatusOr<view::DisplaySurface> SurfaceOf(const RenderArguments& arguments,
+                                               const std::optional<Volume>& object,
+                                               const ProgressBar& bar,
+                                               const exec::Context& context) {
+  if (!object.has_value()) return view::DisplaySurface();
   bar.Begin("making the surface");
   const size_t most = IsSvg(arguments) ? exporting::kMostSvgTriangles : view::kMostPictureTriangles;
-  BCCSKEL_ASSIGN_OR_RETURN(view::DisplaySurface surface,
-                           view::MakeDisplaySurface(loaded.object, most, context));
-  return Shown{std::string(FileName(arguments.object)), std::move(loaded.result),
-               std::move(surface)};
+  return view::MakeDisplaySurface(*object, most, context);
 }
 
-absl::StatusOr<std::string> Draw(const RenderArguments& arguments, const Shown& shown,
+absl::StatusOr<std::string> Draw(const RenderArguments& arguments, const ResultAndObject& loaded,
+                                 const view::DisplaySurface& surface,
                                  const exec::Context& context) {
   if (IsSvg(arguments)) {
-    return exporting::SvgText({.title = shown.title,
-                               .result = shown.result,
-                               .surface = shown.surface,
-                               .context = context});
+    return exporting::SvgText(
+        {.title = loaded.title, .result = loaded.result, .surface = surface, .context = context});
   }
   view::PictureOptions options = arguments.picture;
-  options.title = shown.title;
-  return view::RenderPng(shown.result, shown.surface, options, context);
+  options.title = loaded.title;
+  return view::RenderPng(loaded.result, surface, options, context);
 }
 
 bool AsksForAView(const view::PictureOptions& picture) {
@@ -133,15 +120,17 @@ ExitCode Run(const RenderArguments& arguments, const std::stop_token& stop) {
   }
   LocalTeam team(arguments.common.threads, stop);
   const ProgressBar bar(ProgressStyle::kAuto);
-  bar.Begin("reading", arguments.result);
-  const absl::StatusOr<Shown> shown = Load(arguments, bar, team.context());
-  if (!shown.ok()) return Fail(shown.status());
+  const absl::StatusOr<ResultAndObject> loaded =
+      LoadResultAndObject(arguments, bar, team.context());
+  if (!loaded.ok()) return Fail(loaded.status());
+  const auto surface = SurfaceOf(arguments, loaded->object, bar, team.context());
+  if (!surface.ok()) return Fail(surface.status());
   bar.Begin("writing", arguments.output);
-  const absl::StatusOr<std::string> picture = Draw(arguments, *shown, team.context());
+  const absl::StatusOr<std::string> picture = Draw(arguments, *loaded, *surface, team.context());
   if (!picture.ok()) return Fail(picture.status());
   const absl::Status written = exporting::WriteFileAtomically(arguments.output, *picture, stop);
   if (!written.ok()) return FailWith(ExitCode::kOutput, written);
-  return Print(SummaryOf(arguments, shown->surface.triangles.size()));
+  return Print(SummaryOf(arguments, surface->triangles.size()));
 }
 
 }  // namespace bccskel::cli

@@ -36,23 +36,12 @@ std::string SummaryOf(const ViewArguments& arguments, const view::Peeling& peeli
   return std::move(text).Take();
 }
 
-struct Scene {
-  std::string title;
-  view::ResultDocument result;
-  view::Peeling peeling;  // without layers if no object is given
-};
-
-absl::StatusOr<Scene> Load(const ResultArguments& source, const ProgressBar& bar,
-                           const exec::Context& context) {
-  if (source.object.empty()) {
-    BCCSKEL_ASSIGN_OR_RETURN(view::ResultDocument result,
-                             view::ReadResultDocument(source.result, context.stop));
-    return Scene{std::string(FileName(source.result)), std::move(result), {}};
-  }
-  BCCSKEL_ASSIGN_OR_RETURN(ResultAndObject loaded, LoadResultAndObject(source, bar, context));
+// Without layers if no object is given.
+absl::StatusOr<view::Peeling> Peel(const ResultAndObject& loaded, const ProgressBar& bar,
+                                   const exec::Context& context) {
+  if (!loaded.object.has_value()) return view::Peeling();
   bar.Begin("peeling the object for the page");
-  BCCSKEL_ASSIGN_OR_RETURN(view::Peeling peeling, view::PeelForDisplay(loaded.object, {}, context));
-  return Scene{std::string(FileName(source.object)), std::move(loaded.result), std::move(peeling)};
+  return view::PeelForDisplay(*loaded.object, {}, context);
 }
 
 }  // namespace
@@ -65,16 +54,18 @@ void AddView(CLI::App& command, ViewArguments& arguments) {
 ExitCode Run(const ViewArguments& arguments, const std::stop_token& stop) {
   LocalTeam team(arguments.common.threads, stop);
   const ProgressBar bar(ProgressStyle::kAuto);
-  bar.Begin("reading", arguments.result);
-  const absl::StatusOr<Scene> scene = Load(arguments, bar, team.context());
-  if (!scene.ok()) return Fail(scene.status());
+  const absl::StatusOr<ResultAndObject> loaded =
+      LoadResultAndObject(arguments, bar, team.context());
+  if (!loaded.ok()) return Fail(loaded.status());
+  const absl::StatusOr<view::Peeling> peeling = Peel(*loaded, bar, team.context());
+  if (!peeling.ok()) return Fail(peeling.status());
   bar.Begin("writing", arguments.output);
-  const auto& [title, result, peeling] = *scene;
-  const absl::StatusOr<std::string> page = view::PageOf({title, result, peeling}, team.context());
+  const absl::StatusOr<std::string> page =
+      view::PageOf({loaded->title, loaded->result, *peeling}, team.context());
   if (!page.ok()) return Fail(page.status());
   const absl::Status written = exporting::WriteFileAtomically(arguments.output, *page, stop);
   if (!written.ok()) return FailWith(ExitCode::kOutput, written);
-  return Print(SummaryOf(arguments, peeling, page->size()));
+  return Print(SummaryOf(arguments, *peeling, page->size()));
 }
 
 }  // namespace bccskel::cli
