@@ -2,6 +2,7 @@
 #include <string>
 #include <utility>
 
+#include "absl/strings/str_join.h"
 #include "client/cli/arguments.h"
 #include "client/cli/common_options.h"
 #include "client/cli/console.h"
@@ -14,12 +15,8 @@ namespace bccskel::cli {
 namespace {
 
 std::string ShapeNames() {
-  std::string names;
-  for (const Shape shape : kShapes) {
-    if (!names.empty()) names += ", ";
-    names += ShapeName(shape);
-  }
-  return names;
+  return absl::StrJoin(kShapes, ", ",
+                       [](std::string* out, Shape shape) { *out += ShapeName(shape); });
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
 #include "absl/time/time.h"
 #include "client/cli/arguments.h"
 #include "client/cli/common_options.h"
@@ -207,19 +208,14 @@ absl::StatusOr<std::vector<DurableJob>> List(const JobsArguments& arguments,
   return jobs;
 }
 
-std::string Padded(std::string text, size_t width) {
-  text.resize(std::max(width, text.size()), ' ');
-  return text;
-}
-
 std::string Table(const std::vector<DurableJob>& jobs) {
-  exporting::Text text;
-  text.Add(Padded("JOB", 40), Padded("STATE", 11), Padded("CREATED", 22), "MESSAGE\n");
+  std::string text =
+      absl::StrFormat("%-39s %-10s %-21s %s\n", "JOB", "STATE", "CREATED", "MESSAGE");
   for (const DurableJob& job : jobs) {
-    text.Add(Padded(job.name, 39), " ", Padded(NameOf(job.state), 10), " ",
-             Padded(TimeText(job.created), 21), " ", std::string(job.error.message()), "\n");
+    absl::StrAppendFormat(&text, "%-39s %-10s %-21s %s\n", job.name, NameOf(job.state),
+                          TimeText(job.created), job.error.message());
   }
-  return std::move(text).Take();
+  return text;
 }
 
 std::string Json(const std::vector<DurableJob>& jobs) {

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
-#include <cstdio>
 #include <iterator>
 #include <memory>
 #include <optional>
@@ -195,8 +194,6 @@ void AddPreparing(Text& text, const Totals& totals) {
 std::string SummaryText(const LabelsSummary& summary) {
   const Totals totals = TotalsOf(summary.labels);
   const ImageSize& size = summary.info.size;
-  char seconds[32];
-  std::snprintf(seconds, sizeof(seconds), "%.3f", summary.seconds);
   Text text;
   text.Add("input:     ", FileName(summary.arguments.input), ", ", summary.info.format, ", ",
            size.nx, " x ", size.ny, " x ", size.nz, ' ', VoxelTypeName(summary.info.type),
@@ -217,8 +214,8 @@ std::string SummaryText(const LabelsSummary& summary) {
            Counted(totals.nodes, "node", "nodes"), ", ", Counted(totals.edges, "edge", "edges"),
            "\ncheck:     topology kept from every label's ", from, " on, ",
            Counted(totals.simple_points_left, "simple point", "simple points"), " left",
-           sampled ? "; sampling may have changed the voxels'" : "", "\ntime:      ", seconds,
-           " s\n");
+           sampled ? "; sampling may have changed the voxels'" : "",
+           "\ntime:      ", absl::StrFormat("%.3f", summary.seconds), " s\n");
   text.Add(FilesText(summary.files));
   return std::move(text).Take();
 }

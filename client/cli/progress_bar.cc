@@ -8,6 +8,7 @@
 #include <mutex>
 #include <utility>
 
+#include "absl/strings/str_format.h"
 #include "client/export/picture/caption.h"
 
 namespace bccskel::cli {
@@ -33,10 +34,7 @@ struct ShownLine {
 ShownLine shown_line;
 
 std::string SecondsText(std::chrono::duration<double> elapsed) {
-  std::string seconds(32, '\0');
-  seconds.resize(static_cast<size_t>(
-      std::snprintf(seconds.data(), seconds.size(), "%.1f s", elapsed.count())));
-  return seconds;
+  return absl::StrFormat("%.1f s", elapsed.count());
 }
 
 // "[####----] WHAT N/TOTAL  MORE"

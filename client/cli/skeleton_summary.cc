@@ -1,8 +1,8 @@
 #include <cstdint>
-#include <cstdio>
 #include <string_view>
 #include <utility>
 
+#include "absl/strings/str_format.h"
 #include "client/cli/summaries.h"
 #include "client/export/method_facts.h"
 #include "client/export/picture/caption.h"
@@ -23,11 +23,7 @@ double Seconds(StageTimings::Duration duration) {
   return std::chrono::duration<double>(duration).count();
 }
 
-std::string Decimals(double seconds) {
-  std::string text(32, '\0');
-  text.resize(static_cast<size_t>(std::snprintf(text.data(), text.size(), "%.3f", seconds)));
-  return text;
-}
+std::string Decimals(double seconds) { return absl::StrFormat("%.3f", seconds); }
 
 std::string CheckPhrase(const Certificate& certificate) {
   std::string verdict = VerdictInWords(certificate);

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "absl/strings/str_format.h"
 #include "client/export/picture/beads.h"
 #include "client/export/picture/caption.h"
 #include "client/export/picture/glass_image.h"
@@ -187,11 +188,7 @@ class Words {
     cairo_fill(pen_);
     return Label(words, x + 1.2 * size_, y);
   }
-  static std::string Figure(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", value);
-    return text;
-  }
+  static std::string Figure(double value) { return absl::StrFormat("%.3g", value); }
 
   cairo_t* pen_;
   double width_;
