@@ -4,6 +4,7 @@
 #include <bit>
 #include <csetjmp>
 #include <cstring>
+#include <optional>
 #include <utility>
 
 #include "absl/strings/str_format.h"
@@ -125,10 +126,21 @@ absl::Status TransparentError(size_t x, int32_t y, unsigned alpha) {
       x, y, alpha));
 }
 
+// The black pixels of an image. Drawing programs leave the background transparent black; but beside
+// opaque black that may be the mask.
+struct Blacks {
+  struct Pixel {
+    size_t x;
+    int32_t y;
+  };
+  std::optional<Pixel> clear;  // the first
+  bool opaque = false;
+};
+
 // Takes the one gray level out of each pixel's samples.
 template <typename T>
-absl::Status TakeGray(const std::byte* row, const PngLayout& layout, int32_t y,
-                      std::span<T> grays) {
+absl::Status TakeGray(const std::byte* row, const PngLayout& layout, int32_t y, std::span<T> grays,
+                      Blacks& blacks) {
   const size_t samples = layout.colors + (layout.alpha ? 1 : 0);
   std::array<T, 4> pixel = {};
   for (size_t x = 0; x < grays.size(); ++x, row += samples * sizeof(T)) {
@@ -136,12 +148,15 @@ absl::Status TakeGray(const std::byte* row, const PngLayout& layout, int32_t y,
     const bool gray = layout.colors == 1 || (pixel[0] == pixel[1] && pixel[0] == pixel[2]);
     if (!gray) return ColoredError(x, y, std::array<unsigned, 3>{pixel[0], pixel[1], pixel[2]});
     const T alpha = layout.alpha ? pixel[layout.colors] : std::numeric_limits<T>::max();
-    // Drawing programs leave the background so.
-    const bool nothing = alpha == 0 && pixel[0] == 0;
-    if (alpha != std::numeric_limits<T>::max() && !nothing) return TransparentError(x, y, alpha);
+    const bool opaque = alpha == std::numeric_limits<T>::max();
+    if (!opaque && (alpha > 0 || pixel[0] > 0)) return TransparentError(x, y, alpha);
+    if (!opaque && !blacks.clear.has_value()) blacks.clear = {x, y};
+    blacks.opaque = blacks.opaque || (opaque && pixel[0] == 0);
     grays[x] = pixel[0];
   }
-  return absl::OkStatus();
+  return blacks.clear.has_value() && blacks.opaque
+             ? TransparentError(blacks.clear->x, blacks.clear->y, 0)
+             : absl::OkStatus();
 }
 
 class PngSource : public ImageSource {
@@ -176,7 +191,8 @@ class PngSource : public ImageSource {
     const auto nx = static_cast<size_t>(info_.size.nx);
     const auto take = [&]<typename T>(T) {
       auto* const grays = reinterpret_cast<T*>(slice_.bytes().data());
-      return TakeGray<T>(row, layout_, y, std::span(grays + static_cast<size_t>(y) * nx, nx));
+      return TakeGray<T>(row, layout_, y, std::span(grays + static_cast<size_t>(y) * nx, nx),
+                         blacks_);
     };
     return info_.type == VoxelType::kUint16 ? take(uint16_t{}) : take(uint8_t{});
   }
@@ -185,6 +201,7 @@ class PngSource : public ImageSource {
   PngLayout layout_;
   SliceBuffer slice_;
   exec::UninitializedVector<std::byte> rows_;
+  Blacks blacks_;
 };
 
 }  // namespace

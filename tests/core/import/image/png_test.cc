@@ -91,6 +91,11 @@ TEST(Png, TransparentBlackIsBackground) {
                                      .color = PNG_COLOR_TYPE_RGBA,
                                      .samples = {0, 0, 0, 0, 0, 0, 0, 110}})),
               HasSubstr("pixel (1, 0) is transparent (alpha 110)"));
+  EXPECT_THAT(ErrorOfBytes(PngBytes({.width = 2,
+                                     .height = 2,
+                                     .color = PNG_COLOR_TYPE_GRAY_ALPHA,
+                                     .samples = {255, 255, 0, 0, 0, 255, 255, 255}})),
+              HasSubstr("pixel (1, 0) is transparent (alpha 0)"));
 }
 
 TEST(Png, ReadsAFileCompressedByGzipAsAWhole) {
