@@ -9,6 +9,7 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "absl/strings/ascii.h"
 #include "absl/strings/match.h"
 #include "absl/strings/str_join.h"
 #include "absl/strings/str_split.h"
@@ -212,7 +213,7 @@ absl::Status CheckCommas(const std::string& path) {
   std::vector<std::string> names;
   for (const std::string& part : std::vector<std::string>(absl::StrSplit(path, ','))) {
     if (names.empty() || exporting::SkeletonFormatOf(names.back()).ok()) {
-      names.push_back(part);
+      names.emplace_back(absl::StripLeadingAsciiWhitespace(part));
     } else {
       names.back() += "," + part;
     }

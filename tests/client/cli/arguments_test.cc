@@ -226,6 +226,8 @@ TEST(ArgumentsTest, VoxelsHaveOneSizeOrThree) {
 TEST(ArgumentsTest, OutputsMayHaveCommasInTheirNames) {
   const Parsed parsed = Parse("skeletonize a.off -o a,b.swc -o ,.vtp");
   EXPECT_THAT(parsed.as<SkeletonizeArguments>().outputs, ElementsAre("a,b.swc", ",.vtp"));
+  EXPECT_THAT(Parse({"convert", "a.json", "-o", "a.swc, b.csv"}).err,
+              HasSubstr("write -o a.swc -o b.csv\n"));
 }
 
 TEST(ArgumentsTest, ErrorsNameTheHelpThatHelps) {
