@@ -101,6 +101,21 @@ absl::StatusOr<JobState> DurableClient::Watch(const std::string& job,
   return absl::DataLossError("the watch ended before " + job + " did");
 }
 
+absl::Status DurableClient::Await(const std::string& job,
+                                  const std::function<void(const exec::ShellProgress&)>& on_shell,
+                                  const Calls& calls) {
+  absl::Status error;
+  const auto take = [&](const JobEvent& event) {
+    if (event.shell.has_value() && on_shell) on_shell(*event.shell);
+    if (event.state.has_value()) error = event.error;
+  };
+  BCCSKEL_ASSIGN_OR_RETURN(const JobState state, Watch(job, take, calls));
+  if (state == JobState::kSucceeded) return absl::OkStatus();
+  if (!error.ok()) return error;
+  return state == JobState::kCancelled ? absl::CancelledError("the job was cancelled")
+                                       : absl::InternalError("the job failed");
+}
+
 absl::StatusOr<SkeletonizeResult> DurableClient::Fetch(const std::string& job, const Calls& calls) {
   RetryLoop loop(policy_, pause_, calls.timeout, calls.stop);
   SkeletonReading reading;

@@ -87,6 +87,11 @@ class DurableClient {
   // Passes each event to `consume`, which may be empty, once; returns the job's final state.
   absl::StatusOr<JobState> Watch(const std::string& job, const DurableStub::EventConsumer& consume,
                                  const Calls& calls);
+  // Waits for the job's end and passes each shell to `on_shell`, which may be empty.
+  // Errors: also that of a job that failed; CANCELLED for a job that was cancelled.
+  absl::Status Await(const std::string& job,
+                     const std::function<void(const exec::ShellProgress&)>& on_shell,
+                     const Calls& calls);
   // The result of a job that succeeded; with `thin` only if the job asked for it.
   absl::StatusOr<SkeletonizeResult> Fetch(const std::string& job, const Calls& calls);
 

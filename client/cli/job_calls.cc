@@ -14,20 +14,13 @@
 namespace bccskel::cli {
 namespace {
 
-using client::DurableClient, client::JobState;
+using client::DurableClient;
 
 constexpr std::chrono::minutes kShortCall(1);
 constexpr std::chrono::seconds kLastCall(3);  // after Ctrl-C
 
 std::string TimeJson(const std::optional<client::Time>& time) {
   return time.has_value() ? JsonString(TimeText(*time)) : "null";
-}
-
-absl::Status StatusOf(JobState state, const absl::Status& error) {
-  if (state == JobState::kSucceeded) return absl::OkStatus();
-  if (!error.ok()) return error;
-  return state == JobState::kCancelled ? absl::CancelledError("the job was cancelled")
-                                       : absl::InternalError("the job failed");
 }
 
 }  // namespace
@@ -78,19 +71,12 @@ std::string JobSummary(const CommonArguments& common, const client::DurableJob& 
 absl::Status AwaitJob(DurableClient& client, const std::string& job,
                       const WaitingArguments& waiting, const std::stop_token& stop) {
   ProgressBar bar(waiting.progress);
-  const auto on_shell = bar.Callback("waiting for " + job);
-  absl::Status error;
-  const auto take = [&](const client::JobEvent& event) {
-    if (event.shell.has_value() && on_shell) on_shell(*event.shell);
-    if (event.state.has_value()) error = event.error;
-  };
-  const absl::StatusOr<JobState> state =
-      client.Watch(job, take, {.timeout = waiting.timeout, .stop = stop});
-  if (state.ok()) return StatusOf(*state, error);
-  if (stop.stop_requested() && waiting.on_interrupt == OnInterrupt::kCancel) {
+  absl::Status ended = client.Await(job, bar.Callback("waiting for " + job),
+                                    {.timeout = waiting.timeout, .stop = stop});
+  if (!ended.ok() && stop.stop_requested() && waiting.on_interrupt == OnInterrupt::kCancel) {
     BCCSKEL_RETURN_IF_ERROR(client.CancelJob(job, ShortCalls({})).status());
   }
-  return state.status();
+  return ended;
 }
 
 namespace {

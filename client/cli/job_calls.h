@@ -33,7 +33,7 @@ std::string JobJson(const client::DurableJob& job);
 std::string JobSummary(const CommonArguments& common, const client::DurableJob& job);
 
 // Waits for the job's end. A stop request cancels the job unless `waiting` says otherwise.
-// Errors: those of DurableClient::Watch(); the error of a failed job; CANCELLED.
+// Errors: those of DurableClient::Await().
 absl::Status AwaitJob(client::DurableClient& client, const std::string& job,
                       const WaitingArguments& waiting, const std::stop_token& stop);
 

@@ -227,6 +227,20 @@ TEST_F(DurableClientTest, CountsBreaksOfAWatchAnewOnceSomethingCame) {
   EXPECT_EQ(*client.Watch("jobs/1", {}, {}), JobState::kFailed);
 }
 
+TEST_F(DurableClientTest, AwaitsAJobWithItsShellsAndItsError) {
+  JobEvent failed = Enters(3, JobState::kFailed);
+  failed.error = absl::ResourceExhaustedError("too large");
+  DurableClient client = ClientOf(
+      {.watches = {{{Shell(1), Shell(2), Enters(3, JobState::kSucceeded)}, absl::OkStatus()},
+                   {{failed}, absl::OkStatus()},
+                   {{Enters(3, JobState::kCancelled)}, absl::OkStatus()}}});
+  int shells = 0;
+  EXPECT_TRUE(client.Await("jobs/1", [&](const exec::ShellProgress&) { ++shells; }, {}).ok());
+  EXPECT_EQ(shells, 2);
+  EXPECT_EQ(client.Await("jobs/1", {}, {}), failed.error);
+  EXPECT_TRUE(absl::IsCancelled(client.Await("jobs/1", {}, {})));
+}
+
 TEST_F(DurableClientTest, TakesAWatchThatEndsWithoutTheJobsEndForADefect) {
   DurableClient client =
       ClientOf({.watches = {{{Enters(1, JobState::kRunning)}, absl::OkStatus()}}});
