@@ -226,9 +226,7 @@ void AddLabelJson(Text& text, const LabelFigures& label) {
            ",\"object_points\":", label.object_points,
            ",\"skeleton_points\":", label.skeleton_points, ",\"nodes\":", label.nodes,
            ",\"edges\":", label.edges, ",\"certificate\":", exporting::CertificateJson(certificate),
-           ",\"topology_kept\":",
-           certificate.TopologyKept() && certificate.MaskKept() ? "true" : "false",
-           ",\"sha256\":\"", label.sha256, "\"}");
+           ",\"topology_kept\":", KeptJson(certificate), ",\"sha256\":\"", label.sha256, "\"}");
 }
 
 std::string SummaryJson(const LabelsSummary& summary) {

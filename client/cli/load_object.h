@@ -85,10 +85,10 @@ std::string_view LocalCommand(const SkeletonizeArguments& arguments);
 ExitCode FailComputing(const ComputeArguments& arguments, const absl::Status& error,
                        std::string_view local = "--local");
 
-// Reads both, each a phase of `bar`, if an object is given, and reproduces the object that was
+// Reads the result and the object, each a phase of `bar`, and reproduces the object that was
 // thinned: fills a mesh on a grid of the result's spacing, unless the arguments give another, and
-// repeats the preparation. Warns if the number of points differs from the result's. Errors: those
-// of ReadResultDocument(), LoadObject(), Prepare() and CheckObjectFits(), with the
+// repeats the preparation. Warns if the number of points differs from the result's.
+// Errors: those of ReadResultDocument(), LoadObject(), Prepare() and CheckObjectFits(), with the
 //         path.
 absl::StatusOr<ResultAndObject> LoadResultAndObject(const ResultArguments& arguments,
                                                     const ProgressBar& bar,

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "absl/strings/str_join.h"
 #include "client/cli/arguments.h"
 
 namespace bccskel::cli {
@@ -41,7 +42,7 @@ CLI::Option* AddChoice(CLI::App& command, const std::string& name, std::function
     throw CLI::ValidationError(name + " " + given + ": must be " + OneOf(words));
   };
   return command.add_option_function<std::string>(name, read, description)
-      ->option_text(CLI::detail::join(words, "|"));
+      ->option_text(absl::StrJoin(words, "|"));
 }
 
 template <typename Enum>

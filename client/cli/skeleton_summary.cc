@@ -32,10 +32,6 @@ std::string CheckPhrase(const Certificate& certificate) {
          " left";
 }
 
-const char* KeptJson(const Certificate& certificate) {
-  return certificate.TopologyKept() && certificate.MaskKept() ? "true" : "false";
-}
-
 void AddOrder(Text& text, const SkeletonSummary& summary) {
   const TreeOrder order = OrderTrees(summary.result.graph, *summary.arguments.root);
   text.Add("order:     ", Counted(order.roots.size(), "tree", "trees"), ", ",
@@ -68,6 +64,10 @@ void AddTimingsJson(Text& text, const StageTimings& timings) {
 }
 
 }  // namespace
+
+std::string_view KeptJson(const Certificate& certificate) {
+  return certificate.TopologyKept() && certificate.MaskKept() ? "true" : "false";
+}
 
 std::string PreparingPhrase(const std::vector<PreparingStep>& steps) {
   Text text;

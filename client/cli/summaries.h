@@ -78,6 +78,9 @@ struct SkeletonSummary {
   double seconds = 0;  // wall time of the command
 };
 
+// Whether the topology was kept, from the mask on.
+std::string_view KeptJson(const Certificate& certificate);
+
 // "denoised in 2 passes +3 -40, 5 cavities filled +60": with points added and removed.
 std::string PreparingPhrase(const std::vector<PreparingStep>& steps);
 

@@ -9,6 +9,7 @@
 
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
 #include "client/cli/option_values.h"
 #include "core/pipeline/option_words.h"
 #include "core/pipeline/presets.h"
@@ -33,7 +34,7 @@ void AddPreset(CLI::App& command, SkeletonizeOptions& options) {
             if (!known.ok()) throw CLI::ValidationError("--" + std::string(known.message()));
           },
           text)
-      ->option_text(CLI::detail::join(names, "|"));
+      ->option_text(absl::StrJoin(names, "|"));
 }
 
 // That of a preset is a significance.
