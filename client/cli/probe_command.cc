@@ -14,7 +14,7 @@ namespace {
 absl::Status Probe(const ProbeArguments& arguments) {
   BCCSKEL_ASSIGN_OR_RETURN(const client::Endpoint endpoint, EndpointOf(arguments.server));
   BCCSKEL_ASSIGN_OR_RETURN(const auto operations, client::Operations::Create(endpoint));
-  const absl::Status health = operations->CheckHealth(arguments.service, arguments.timeout);
+  absl::Status health = operations->CheckHealth(arguments.service, arguments.timeout);
   if (!absl::IsNotFound(health)) return health;
   return absl::NotFoundError("it has no service " + arguments.service +
                              "; without --service, probe asks for the whole server");

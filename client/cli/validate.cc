@@ -11,6 +11,7 @@
 #include "absl/status/statusor.h"
 #include "absl/strings/ascii.h"
 #include "absl/strings/match.h"
+#include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "absl/strings/str_split.h"
 #include "client/cli/arguments.h"
@@ -221,10 +222,10 @@ absl::Status CheckCommas(const std::string& path) {
   if (names.size() == 1) return absl::OkStatus();
   if (names.back().empty()) names.pop_back();
   constexpr bool kSeveral = requires(const Chosen& chosen) { chosen.outputs; };
-  return absl::InvalidArgumentError(path + ": -o names one file" +
-                                    (kSeveral || names.size() == 1
-                                         ? "; write -o " + absl::StrJoin(names, " -o ")
-                                         : ", and this command writes one; run it for each"));
+  return absl::InvalidArgumentError(absl::StrCat(
+      path, ": -o names one file",
+      kSeveral || names.size() == 1 ? "; write -o " + absl::StrJoin(names, " -o ")
+                                    : ", and this command writes one; run it for each"));
 }
 
 template <typename Chosen>
@@ -241,8 +242,8 @@ absl::Status CheckFileNames(const Chosen& arguments) {
   for (const std::string& path : paths) {
     if (path.starts_with('=')) {
       const std::string name = path.substr(1);
-      return absl::InvalidArgumentError(path + ": begins with '='; write -o " + name +
-                                        " or --output=" + name);
+      return absl::InvalidArgumentError(
+          absl::StrCat(path, ": begins with '='; write -o ", name, " or --output=", name));
     }
     BCCSKEL_RETURN_IF_ERROR(CheckCommas<Chosen>(path));
   }

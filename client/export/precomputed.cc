@@ -164,7 +164,7 @@ class FolderFiles {
 
   absl::Status Add(const std::string& name, std::string_view bytes, const std::stop_token& stop) {
     names_.push_back(name);
-    const absl::Status status = WriteFileAtomically(drafts_ + "/" + name, bytes, stop);
+    absl::Status status = WriteFileAtomically(drafts_ + "/" + name, bytes, stop);
     if (status.ok()) return status;
     return absl::Status(status.code(), absl::StrReplaceAll(status.message(), {{drafts_, folder_}}));
   }

@@ -112,12 +112,12 @@ absl::Status FileReplacement::WriteAt(uint64_t offset, std::span<const std::byte
 }
 
 absl::Status FileReplacement::Commit(const std::stop_token& stop) {
-  const absl::Status stopped = absl::CancelledError("interrupted, so it was not written");
-  if (stop.stop_requested()) return stopped;
+  const auto stopped = [] { return absl::CancelledError("interrupted, so it was not written"); };
+  if (stop.stop_requested()) return stopped();
   const bool synced = draft_.empty() || ::fsync(descriptor_.get()) == 0;
   // Some file systems report a full disk only here.
   if (!synced || !descriptor_.Close()) return SystemStatus(errno);
-  if (stop.stop_requested()) return stopped;
+  if (stop.stop_requested()) return stopped();
   if (draft_.empty()) return absl::OkStatus();
   if (std::rename(draft_.c_str(), place_.c_str()) != 0) return SystemStatus(errno);
   draft_.clear();

@@ -206,7 +206,7 @@ absl::StatusOr<ThinSkeleton> Prune(const ThinSkeleton& curves, const PrunedObjec
   absl::StatusOr<PointsByAxis> at_border = PointsByAxis();
   const auto place_tips = [&](const exec::Context& own) {
     if (!depths.has_value()) return;
-    at_border = PlaceTips(set, in.object, in.radius, *depths, stay, noise, turned, in.image, own);
+    at_border = PlaceTips(set, in, *depths, stay, noise, turned, own);
   };
   RunBoth(find_levels, place_tips, context.WorkersFor(set.Ends().size(), Significance::kWork),
           context);

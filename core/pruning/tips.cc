@@ -40,26 +40,25 @@ constexpr double kPointed = 0.7;  // largest radius at the end of a pointed limb
 
 class TipPlacer {
  public:
-  TipPlacer(ThinSet& set, const Volume& object, const ExactRadius& radius, TipDepths& depths,
-            const PointSet& keep, const SurfaceNoise& noise, const TurnedTips& turned,
-            const std::optional<LatticeBox>& image, const exec::Context& context)
+  TipPlacer(ThinSet& set, const PrunedObject& in, TipDepths& depths, const PointSet& keep,
+            const SurfaceNoise& noise, const TurnedTips& turned, const exec::Context& context)
       : set_(set),
-        bricks_(object),
+        bricks_(in.object),
         bumps_(bricks_),
-        radius_(radius),
+        radius_(in.radius),
         depth_(depths.firm),
-        steps_(set, object, depths.firm),
-        sections_(object),
-        flat_(object, depths.searching, depths.firm),  // it ends at the border
-        last_limb_(object, noise),
+        steps_(set, in.object, depths.firm),
+        sections_(in.object),
+        flat_(in.object, depths.searching, depths.firm),  // it ends at the border
+        last_limb_(in.object, noise),
         keep_(keep),
         turned_(turned),
         balls_(set, context),
-        scale_(AxisScaleOf(object.placement())),
+        scale_(AxisScaleOf(in.object.placement())),
         step_(std::ranges::max(scale_)),
         least_gain_(kGainBySteps * noise.step + kGainByNoise * noise.thin),
         noise_(noise) {
-    if (image.has_value()) border_tips_.emplace(object, *image);
+    if (in.image.has_value()) border_tips_.emplace(in.object, *in.image);
   }
 
   void Place(LatticePoint end) {
@@ -381,13 +380,10 @@ class TipPlacer {
 
 }  // namespace
 
-absl::StatusOr<PointsByAxis> PlaceTips(ThinSet& set, const Volume& object,
-                                       const ExactRadius& radius, TipDepths& depths,
+absl::StatusOr<PointsByAxis> PlaceTips(ThinSet& set, const PrunedObject& in, TipDepths& depths,
                                        const PointSet& keep, const SurfaceNoise& noise,
-                                       const TurnedTips& turned,
-                                       const std::optional<LatticeBox>& image,
-                                       const exec::Context& context) {
-  TipPlacer placer(set, object, radius, depths, keep, noise, turned, image, context);
+                                       const TurnedTips& turned, const exec::Context& context) {
+  TipPlacer placer(set, in, depths, keep, noise, turned, context);
   for (LatticePoint end : set.Ends()) {
     if (context.ShouldStop()) return context.StopStatus();
     placer.Place(end);

@@ -1,17 +1,13 @@
 #ifndef BCCSKEL_CORE_PRUNING_TIPS_H_
 #define BCCSKEL_CORE_PRUNING_TIPS_H_
 
-#include <optional>
-#include <vector>
-
 #include "absl/status/statusor.h"
-#include "core/distance/exact_radius.h"
 #include "core/exec/context.h"
 #include "core/pruning/firm_depth.h"
+#include "core/pruning/prune.h"
 #include "core/pruning/surface_noise.h"
 #include "core/pruning/thin_set.h"
 #include "core/pruning/turned_tips.h"
-#include "core/volume/volume.h"
 
 namespace bccskel {
 
@@ -23,17 +19,13 @@ namespace bccskel {
 // most 6 units plus twice the radius there (once the radius where steps along one axis are at least
 // twice as long as along another), and not into the ball of another branch. Points of `keep` are
 // not cut off. Ends that turn aside are removed first from limbs that are not flat (TurnedTips).
-// Needs:  `radius` belongs to `object`; `depths` belong to the object, or to the object with points
-//         beyond its border, into which no tip grows; `noise` is that of its surface; `image` is
-//         the box of the image whose border cuts limbs off (BorderTips), or none.
+// Needs:  `depths` belong to in.object, or to in.space, into which no tip grows; `noise` is that of
+//         the object's surface.
 // Returns the points of curves that were led to the middles of such cuts.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
-absl::StatusOr<PointsByAxis> PlaceTips(ThinSet& set, const Volume& object,
-                                       const ExactRadius& radius, TipDepths& depths,
+absl::StatusOr<PointsByAxis> PlaceTips(ThinSet& set, const PrunedObject& in, TipDepths& depths,
                                        const PointSet& keep, const SurfaceNoise& noise,
-                                       const TurnedTips& turned,
-                                       const std::optional<LatticeBox>& image,
-                                       const exec::Context& context);
+                                       const TurnedTips& turned, const exec::Context& context);
 
 }  // namespace bccskel
 
