@@ -149,7 +149,7 @@ class ExitCodesTest(harness.TestCase):
         self.succeed("convert", result, "-o", folder)
         before = (folder / "1").read_bytes()
         files = sorted(os.listdir(self.folder))
-        error = self.interrupted_writing("pipe.json", "convert", result, "-o", self.path("pipe.json"),
+        error = self.interrupted_writing("pipe.vtp", "convert", result, "-o", self.path("pipe.vtp"),
                                          "-o", old, "-o", folder, "-o", self.path("new.precomputed"))
         self.assertIn(": interrupted, so it was not written", error)
         self.interrupted_writing("pipe.html", "view", result, "-o", self.path("pipe.html"))
