@@ -19,6 +19,7 @@
 
 #include "absl/strings/ascii.h"
 #include "absl/strings/numbers.h"
+#include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "absl/strings/str_split.h"
 #include "client/cli/console.h"
@@ -45,7 +46,7 @@ std::string HintFor(std::string_view error, const CLI::App& command) {
   if (!says(" is required") && !says(" has no option ") && !says("there is no command ")) return "";
   std::string words = " --help";
   for (const CLI::App* at = &command; at->get_parent() != nullptr; at = at->get_parent()) {
-    words = " " + at->get_name() + words;
+    words = absl::StrCat(" ", at->get_name(), words);
   }
   return "see " + std::string(ProgramName()) + words;
 }

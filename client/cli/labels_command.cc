@@ -215,7 +215,8 @@ std::string SummaryText(const LabelsSummary& summary) {
            "\ncheck:     topology kept from every label's ", from, " on, ",
            Counted(totals.simple_points_left, "simple point", "simple points"), " left",
            sampled ? "; sampling may have changed the voxels'" : "",
-           "\ntime:      ", absl::StrFormat("%.3f", summary.seconds), " s\n");
+           "\ntime:      ", absl::StrFormat("%.3f", summary.seconds), " s ",
+           WhereComputed(summary.arguments), "\n");
   text.Add(FilesText(summary.files));
   return std::move(text).Take();
 }

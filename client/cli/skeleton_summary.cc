@@ -46,8 +46,8 @@ void AddOrder(Text& text, const SkeletonSummary& summary) {
 
 void AddTimes(Text& text, const SkeletonSummary& summary) {
   const StageTimings& timings = summary.result.timings;
-  text.Add("time:      ", Decimals(summary.seconds), " s, of which skeleton ",
-           Decimals(Seconds(timings.total)));
+  text.Add("time:      ", Decimals(summary.seconds), " s ", WhereComputed(summary.arguments),
+           ", of which skeleton ", Decimals(Seconds(timings.total)));
   for (const Stage& stage : kStages) {
     text.Add(&stage == kStages.data() ? " (" : ", ", stage.name, ' ',
              Decimals(Seconds(timings.*stage.time)));
@@ -64,6 +64,10 @@ void AddTimingsJson(Text& text, const StageTimings& timings) {
 }
 
 }  // namespace
+
+std::string WhereComputed(const ComputeArguments& arguments) {
+  return "on " + (arguments.place == Place::kServer ? arguments.server.address : "this machine");
+}
 
 std::string_view KeptJson(const Certificate& certificate) {
   return certificate.TopologyKept() && certificate.MaskKept() ? "true" : "false";

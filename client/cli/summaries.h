@@ -78,6 +78,9 @@ struct SkeletonSummary {
   double seconds = 0;  // wall time of the command
 };
 
+// "on this machine", or "on" the server's address.
+std::string WhereComputed(const ComputeArguments& arguments);
+
 // Whether the topology was kept, from the mask on.
 std::string_view KeptJson(const Certificate& certificate);
 

@@ -56,6 +56,7 @@ class CommandsTest(harness.TestCase):
         with harness.Server(self.folder) as server:
             text = self.succeed("submit", volume, "--server", server.address, *outputs)
         self.assertIn("topology kept", text)
+        self.assertIn(f" s on {server.address}, of which", text)
         for ending in endings:
             self.assertIn("written:   " + self.path("s." + ending), text)
             self.assertGreater(os.path.getsize(self.path("s." + ending)), 100)

@@ -177,8 +177,9 @@ class ExitCodesTest(harness.TestCase):
                 self.read_json(name)
         self.assertEqual(pathlib.Path(all_labels).read_text(), "old")
 
-    def test_without_a_place_it_computes_here_quietly(self):
-        self.succeed(*self.skeletonize(self.generate("ball")))
+    def test_without_a_place_it_computes_here_and_the_summary_says_so(self):
+        self.assertIn(" s on this machine, of which",
+                      self.succeed(*self.skeletonize(self.generate("ball"))))
 
     def test_9_for_a_token_that_is_missing_or_wrong(self):
         tokens, token = pathlib.Path(self.path("tokens")), pathlib.Path(self.path("token"))
