@@ -88,7 +88,7 @@ absl::StatusOr<ChunkCodec> ZarrCodecOf(std::string_view name) {
 }
 
 absl::Status ReadZarrFill(const Json& value, ZarrArray& array) {
-  const absl::Status read = WithVoxelType(array.type, [&]<typename T>(T) -> absl::Status {
+  absl::Status read = WithVoxelType(array.type, [&]<typename T>(T) -> absl::Status {
     if (std::is_floating_point_v<T> || array.halves == StoredHalves::kYes) {
       if (const auto bits = BitsOf(value, sizeof(T)); bits.has_value()) {
         for (size_t n = 0; n < sizeof(T); ++n) {

@@ -240,7 +240,7 @@ absl::StatusOr<std::unique_ptr<ImageSource>> OpenArray(const std::string& folder
 }
 
 // The metadata of a folder; null is what it has none of.
-struct ZarrNode {
+struct ZarrNode {   // NOLINT(bugprone-exception-escape): moving JSON does not throw
   Json array;       // of either version
   Json attributes;  // of a group; those of OME
 };
