@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <numbers>
 #include <tuple>
@@ -276,11 +277,17 @@ bool BorderTips::Touches(LatticePoint p, const Face& face, const ThinSet& set) c
 }
 
 std::vector<BorderTips::Crossing> BorderTips::Crossings(const ThinSet& set) const {
+  constexpr int kOfSurface = 6;  // neighbors; junctions of curves rarely have as many
+  const auto on_surface = [&](LatticePoint p) {
+    return std::popcount(set.NeighborsOf(p)) >= kOfSurface;
+  };
   std::vector<Crossing> crossings;
   set.ForEachPoint([&](LatticePoint p) {
     for (const Face& face : FacesNear(p, kNearRadii * set.RadiusOf(p) + kTouchMargin)) {
       if (Touches(p, face, set)) continue;
       ForEachNeighbor(p, set.NeighborsOf(p), [&](LatticePoint q) {
+        // Not within a surface, which has very many.
+        if (on_surface(p) && on_surface(q)) return;
         if (Touches(q, face, set)) crossings.push_back({face, p, q});
       });
     }
