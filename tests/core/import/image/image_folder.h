@@ -1,6 +1,8 @@
 #ifndef BCCSKEL_TESTS_CORE_IMPORT_IMAGE_IMAGE_FOLDER_H_
 #define BCCSKEL_TESTS_CORE_IMPORT_IMAGE_IMAGE_FOLDER_H_
 
+#include <gtest/gtest.h>
+
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -37,6 +39,25 @@ class ImageFolder {
 inline std::string ErrorOf(const ImageFolder& folder, const ImageOptions& options = {}) {
   const auto image = folder.Read(options);
   return image.ok() ? "read" : std::string(image.status().ToString());
+}
+
+// Reads the folder with each byte of one of its files changed, and with the file cut at each byte,
+// which must be an error. Returns how many changes can be read. The file holds `bytes` in the end.
+inline int ReadsOfDamaged(const ImageFolder& folder, const std::string& name,
+                          const std::string& bytes, const ImageOptions& options) {
+  int read = 0;
+  for (size_t at = 0; at < bytes.size(); ++at) {
+    for (const char byte : {'9', '\xff'}) {
+      std::string changed = bytes;
+      changed[at] = byte;
+      folder.Write(name, changed);
+      read += folder.Read(options).ok() ? 1 : 0;
+    }
+    folder.Write(name, bytes.substr(0, at));
+    EXPECT_FALSE(folder.Read(options).ok()) << at;
+  }
+  folder.Write(name, bytes);
+  return read;
 }
 
 }  // namespace bccskel::testing
