@@ -40,7 +40,7 @@ TEST(DeepLimbs, AreTheTeethOfAGearInAnyPose) {
   for (const Gear& gear :
        {Gear{}, Gear{.thickness = 50, .height = 40}, Gear{12, 63, 22, 35, 18, 25}}) {
     for (const double turn : {0.0, 0.4, 1.1}) {
-      EXPECT_EQ(EndsWhere([&](const WorldPoint& p) { return gear.Contains(p); }, 62, turn),
+      EXPECT_EQ(EndsWhere([&](const WorldPoint& p) { return gear.Contains(p); }, 95, turn),
                 gear.teeth)
           << turn;
     }
