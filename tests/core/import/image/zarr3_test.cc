@@ -194,7 +194,7 @@ const std::string kIndexed = R"("index_codecs":[{"name":"bytes"},{"name":"crc32c
 
 std::vector<double> CountedWithoutThird() {
   std::vector<double> values = CountedTo(24);
-  for (const size_t row : {12, 16, 20}) values[row] = values[row + 1] = 0;
+  for (const size_t row : {size_t{12}, size_t{16}, size_t{20}}) values[row] = values[row + 1] = 0;
   return values;
 }
 
