@@ -19,15 +19,13 @@
 #include "client/cli/console.h"
 #include "client/cli/file_writers.h"
 #include "client/cli/image_options.h"
+#include "client/cli/label_files.h"
 #include "client/cli/load_object.h"
 #include "client/cli/progress_bar.h"
 #include "client/cli/summaries.h"
 #include "client/cli/thinning_options.h"
-#include "client/export/label_paths.h"
-#include "client/export/labeled_graph.h"
 #include "client/export/method_facts.h"
 #include "client/export/picture/caption.h"
-#include "client/export/skeleton_file.h"
 #include "client/export/text.h"
 #include "client/skeletonize_client.h"
 #include "core/exec/status_macros.h"
@@ -38,76 +36,6 @@
 namespace bccskel::cli {
 
 namespace {
-
-// The output files of the skeletons of many labels.
-class LabelFiles {
- public:
-  // Needs: exporting::CheckLabelOutput() is OK for all.
-  LabelFiles(const std::vector<std::string>& paths, const std::optional<RootChoice>& root,
-             exporting::World world, exporting::CurveSampling swc, std::stop_token stop)
-      : root_(root), world_(std::move(world)), swc_(swc), all_(root, world_) {
-    context_.stop = std::move(stop);
-    for (const std::string& path : paths) {
-      (exporting::IsForEachLabel(path) ? paths_of_each_ : paths_of_all_).push_back(path);
-    }
-  }
-
-  // Collects data for the files of all labels and queues the label's own files.
-  // Errors: as WriteSkeletonFile(), also for an earlier label.
-  absl::Status Add(LabelSkeleton&& skeleton) {
-    ++labels_;
-    if (!paths_of_all_.empty()) {
-      all_.Add(skeleton.label, skeleton.voxels, skeleton.result, context_.stop);
-    }
-    if (paths_of_each_.empty()) return absl::OkStatus();
-    const auto kept = std::make_shared<const LabelSkeleton>(std::move(skeleton));
-    return writers_.Add([this, kept] { return WriteOwnFiles(*kept); });
-  }
-
-  // Writes the files of all labels. Errors: as above; CANCELLED.
-  absl::StatusOr<std::vector<WrittenFile>> Finish(const ProgressBar& bar) && {
-    bar.Begin("writing the files of the labels");
-    BCCSKEL_RETURN_IF_ERROR(writers_.Finish());
-    std::vector<WrittenFile> files;
-    for (const std::string& path : paths_of_each_) {
-      files.push_back({path, std::to_string(labels_) + (labels_ == 1 ? " file" : " files")});
-    }
-    for (const std::string& path : paths_of_all_) {
-      bar.Begin("writing", path);
-      BCCSKEL_ASSIGN_OR_RETURN(std::string note,
-                               exporting::WriteLabeledFile(path, all_, context_.stop));
-      files.push_back({path, std::move(note)});
-    }
-    return files;
-  }
-
- private:
-  absl::Status WriteOwnFiles(const LabelSkeleton& skeleton) const {
-    const std::string title = "label " + std::to_string(skeleton.label);
-    const exporting::Subject subject = {.result = skeleton.result,
-                                        .object = skeleton.result.thin,
-                                        .title = title,
-                                        .context = context_,
-                                        .root = root_,
-                                        .world = world_,
-                                        .swc = swc_};
-    for (const std::string& path : paths_of_each_) {
-      BCCSKEL_ASSIGN_OR_RETURN(const std::string own, exporting::MakePathFor(path, skeleton.label));
-      BCCSKEL_RETURN_IF_ERROR(exporting::WriteSkeletonFile(own, subject).status());
-    }
-    return absl::OkStatus();
-  }
-
-  std::vector<std::string> paths_of_each_;
-  std::vector<std::string> paths_of_all_;
-  const std::optional<RootChoice> root_;
-  const exporting::World world_;
-  const exporting::CurveSampling swc_;
-  exec::Context context_;  // of the writers: one thread
-  exporting::LabeledSkeletons all_;
-  uint64_t labels_ = 0;
-  FileWriters writers_;  // last: their tasks use the members above
-};
 
 // The summary of one label.
 struct LabelFigures {
@@ -149,12 +77,6 @@ struct Totals {
   std::vector<PreparingStep> preparing;  // sums per step; empty: nothing was prepared
 };
 
-void Add(const BettiNumbers& one, BettiNumbers& sum) {
-  sum.components += one.components;
-  sum.loops += one.loops;
-  sum.cavities += one.cavities;
-}
-
 // All labels go through the same kinds of steps.
 void Add(const std::vector<PreparingStep>& one, std::vector<PreparingStep>& sum) {
   for (const PreparingStep& step : one) {
@@ -176,10 +98,8 @@ Totals TotalsOf(const std::vector<LabelFigures>& labels) {
     totals.nodes += label.nodes;
     totals.edges += label.edges;
     totals.simple_points_left += label.certificate.simple_points_left;
-    Add(label.certificate.skeleton, totals.topology);
-    if (label.certificate.unprepared.has_value()) {
-      Add(*label.certificate.unprepared, totals.unprepared);
-    }
+    totals.topology += label.certificate.skeleton;
+    totals.unprepared += label.certificate.unprepared.value_or(BettiNumbers());
     Add(label.preparing, totals.preparing);
   }
   return totals;
@@ -347,8 +267,8 @@ absl::Status Compute(const LabelsArguments& arguments, const LabeledObjects& lab
 void AddLabels(CLI::App& command, LabelsArguments& arguments) {
   AddInput(command, "IMAGE", arguments.input, "Image file of labels");
   AddOutputs(command, arguments.outputs,
-             "with {label} in its path one file per label, in any format but pictures; else all "
-             "labels in a .vtp, .graphml, .json, .csv, .glb, .mrk.json or .precomputed");
+             "with {label} in its path one file per label, in any format; else all labels in a "
+             ".vtp, .graphml, .json, .csv, .glb, .html, .svg, .png, .mrk.json or .precomputed");
   AddSwcStep(command, arguments.swc);
   AddLabelImage(command, arguments.image);
   AddMinVoxels(command, arguments.min_voxels);
@@ -363,7 +283,7 @@ ExitCode Run(const LabelsArguments& arguments, const std::stop_token& stop) {
   bar.Begin("reading", arguments.input);
   const absl::StatusOr<CollectedLabels> labels = Load(arguments, team.context());
   if (!labels.ok()) return Fail(labels.status());
-  LabelFiles files(arguments.outputs, arguments.root, WorldOf(labels->info), arguments.swc, stop);
+  LabelFiles files(arguments, *labels, stop);
   std::vector<LabelFigures> figures;
   absl::Status writing, computed;
   const auto on_label = bar.LabelsCallback("skeletonizing the first labels");
@@ -377,7 +297,7 @@ ExitCode Run(const LabelsArguments& arguments, const std::stop_token& stop) {
   computed = Compute(arguments, labels->objects, deliver, team.context());
   if (!writing.ok()) return FailWith(ExitCode::kOutput, writing);
   if (!computed.ok()) return FailComputing(arguments, computed);
-  absl::StatusOr<std::vector<WrittenFile>> written = std::move(files).Finish(bar);
+  absl::StatusOr<std::vector<WrittenFile>> written = std::move(files).Finish(bar, team.context());
   if (!written.ok()) return FailWith(ExitCode::kOutput, written.status());
   return Print(LabelsSummaryOf({arguments, labels->info, labels->left_out, std::move(figures),
                                 *std::move(written),

@@ -18,8 +18,8 @@ bool IsForEachLabel(const std::string& path);
 // those of the system.
 absl::StatusOr<std::string> MakePathFor(const std::string& path, uint64_t label);
 
-// OK for a path with kLabelPlace and any format except pictures, and for one without it and a
-// format that can hold many skeletons. Errors: INVALID_ARGUMENT.
+// OK for a path with kLabelPlace, and for one without it and a format that can hold many skeletons.
+// Errors: INVALID_ARGUMENT.
 absl::Status CheckLabelOutput(const std::string& path);
 
 }  // namespace bccskel::exporting

@@ -5,53 +5,103 @@
 #include "client/export/atomic_file.h"
 #include "client/export/json.h"
 #include "core/exec/status_macros.h"
+#include "core/skeleton/skeleton_graph.h"
 
 namespace bccskel::exporting {
 
-void LabeledSkeletons::Add(uint64_t label, uint64_t voxels, const SkeletonizeResult& result,
-                           const std::stop_token& stop) {
-  const SkeletonGraph& graph = result.graph;
-  if (facts_.empty()) {
-    facts_ = MethodFactsOf(result, world_);
-    // The effects of preparation differ from label to label.
-    std::erase_if(facts_, [](const auto& fact) { return fact.first == "prepared"; });
-  }
-  const auto first_node = static_cast<uint32_t>(graph_.nodes.size());
-  const size_t first_point = graph_.points.size();
-  graph_.placement = graph.placement;
-  graph_.nodes.insert(graph_.nodes.end(), graph.nodes.begin(), graph.nodes.end());
-  graph_.points.insert(graph_.points.end(), graph.points.begin(), graph.points.end());
+namespace {
+
+constexpr size_t kMostLabelTriangles = 200'000;
+
+void AddTo(std::optional<BettiNumbers>& sum, const std::optional<BettiNumbers>& one) {
+  if (one.has_value()) (sum.has_value() ? *sum : sum.emplace()) += *one;
+}
+void AddTo(Certificate& sum, const Certificate& one) {
+  AddTo(sum.mask, one.mask);
+  AddTo(sum.unprepared, one.unprepared);
+  sum.input += one.input;
+  sum.skeleton += one.skeleton;
+  sum.simple_points_left += one.simple_points_left;
+  sum.sampled |= one.sampled;
+}
+
+void AddTo(SkeletonGraph& all, const SkeletonGraph& graph) {
+  const auto first_node = static_cast<uint32_t>(all.nodes.size());
+  const size_t first_point = all.points.size();
+  all.placement = graph.placement;
+  all.nodes.insert(all.nodes.end(), graph.nodes.begin(), graph.nodes.end());
+  all.points.insert(all.points.end(), graph.points.begin(), graph.points.end());
   for (SkeletonEdge edge : graph.edges) {
     edge.source += first_node;
     edge.target += first_node;
     edge.first_point += first_point;
-    graph_.edges.push_back(edge);
+    all.edges.push_back(edge);
   }
-  graph_.sheets.insert(graph_.sheets.end(), graph.sheets.begin(), graph.sheets.end());
-  labels_.of_sheets.resize(graph_.sheets.size(), label);
-  labels_.of_nodes.resize(graph_.nodes.size(), label);
-  labels_.of_edges.resize(graph_.edges.size(), label);
+  all.sheets.insert(all.sheets.end(), graph.sheets.begin(), graph.sheets.end());
+}
+
+}  // namespace
+
+LabeledSkeletons::LabeledSkeletons(const std::vector<std::string>& paths,
+                                   const std::optional<RootChoice>& root, World world)
+    : root_(root), world_(std::move(world)) {
+  for (const std::string& path : paths) {
+    const absl::StatusOr<SkeletonFormat> format = SkeletonFormatOf(path);
+    if (!format.ok()) continue;
+    keeps_json_ |= *format == SkeletonFormat::kJson;
+    shows_objects_ |= ShowsObject(*format);
+  }
+}
+
+void LabeledSkeletons::Add(uint64_t label, uint64_t voxels, const SkeletonizeResult& result,
+                           const std::stop_token& stop) {
+  if (voxels_.empty()) {
+    facts_ = MethodFactsOf(result, world_);
+    // The effects of preparation differ from label to label.
+    std::erase_if(facts_, [](const auto& fact) { return fact.first == "prepared"; });
+    all_.options = result.options;
+    all_.method = result.method;
+    all_.algorithm_version = result.algorithm_version;
+  }
+  voxels_.push_back(voxels);
+  AddTo(all_.graph, result.graph);
+  AddTo(all_.certificate, result.certificate);
+  all_.object_points += result.object_points;
+  all_.skeleton_points += result.skeleton_points;
+  labels_.of_sheets.resize(all_.graph.sheets.size(), label);
+  labels_.of_nodes.resize(all_.graph.nodes.size(), label);
+  labels_.of_edges.resize(all_.graph.edges.size(), label);
+  if (!keeps_json_) return;
   json_ += json_.empty() ? "\n" : ",\n";
   json_ += "{\"label\":" + std::to_string(label) + ",\"voxels\":" + std::to_string(voxels) +
            ",\"skeleton\":" +
-           JsonText(result, OrderOf(graph, root_, stop), world_, JsonParts::kAll, stop) + "}";
+           JsonText(result, OrderOf(result.graph, root_, stop), world_, JsonParts::kAll, stop) +
+           "}";
+}
+
+absl::Status LabeledSkeletons::AddObjects(const view::ObjectOfLabel& object,
+                                          const exec::Context& context) {
+  BCCSKEL_ASSIGN_OR_RETURN(surfaces_,
+                           view::SurfacesOfLabels(voxels_, object, kMostLabelTriangles, context));
+  BCCSKEL_ASSIGN_OR_RETURN(all_.sha256, SkeletonDigest(all_.graph, context));
+  return absl::OkStatus();
 }
 
 GraphContext LabeledSkeletons::Context(const std::stop_token& stop) const {
-  return {.labels = labels_, .facts = facts_, .order = OrderOf(graph_, root_, stop), .stop = stop};
+  return {
+      .labels = labels_, .facts = facts_, .order = OrderOf(all_.graph, root_, stop), .stop = stop};
 }
 
 bool HoldsManyLabels(SkeletonFormat format) {
-  return format == SkeletonFormat::kVtp || format == SkeletonFormat::kGraphMl ||
-         format == SkeletonFormat::kJson || format == SkeletonFormat::kCsv ||
-         format == SkeletonFormat::kGlb || format == SkeletonFormat::kMarkups ||
-         format == SkeletonFormat::kPrecomputed;
+  return format != SkeletonFormat::kSwc && format != SkeletonFormat::kObj &&
+         format != SkeletonFormat::kVolume;
 }
 
 absl::StatusOr<std::string> WriteLabeledFile(const std::string& path,
                                              const LabeledSkeletons& skeletons,
-                                             const std::stop_token& stop) {
+                                             const LabeledPicture& picture) {
   BCCSKEL_ASSIGN_OR_RETURN(const SkeletonFormat format, SkeletonFormatOf(path));
+  const std::stop_token& stop = picture.context.stop;
   if (!HoldsManyLabels(format)) {
     return absl::InvalidArgumentError(path + ": this format holds one label");
   }
@@ -59,9 +109,20 @@ absl::StatusOr<std::string> WriteLabeledFile(const std::string& path,
     BCCSKEL_RETURN_IF_ERROR(WriteFileAtomically(path, skeletons.Json(), stop));
     return std::string();
   }
-  return WriteGraphFile(
-      path,
-      {.graph = skeletons.graph(), .context = skeletons.Context(stop), .world = skeletons.world()});
+  const GraphContext context = skeletons.Context(stop);
+  if (!ShowsObject(format)) {
+    return WriteGraphFile(
+        path, {.graph = skeletons.all().graph, .context = context, .world = skeletons.world()});
+  }
+  return WriteSkeletonFile(
+      path, {.result = skeletons.all(),
+             .object = skeletons.all().thin,
+             .title = picture.title,
+             .context = picture.context,
+             .root = skeletons.root(),
+             .world = skeletons.world(),
+             .draw = picture.draw,
+             .labels = SubjectLabels{context.labels.of_nodes, skeletons.surfaces()}});
 }
 
 }  // namespace bccskel::exporting

@@ -94,19 +94,19 @@ std::string JsonText(const Subject& subject, JsonParts parts = JsonParts::kAll) 
 }
 
 absl::StatusOr<view::Peeling> PeelingOf(const Subject& subject) {
+  if (subject.labels.has_value()) return view::Peeling{{{0, subject.labels->surfaces}}, 0};
   if (subject.shells == nullptr) return view::PeelForDisplay(subject.object, {}, subject.context);
   return view::PeelByShells(subject.object, *subject.shells, subject.result.last_shell, {},
                             subject.context);
 }
 
 absl::StatusOr<std::string> SvgText(const Subject& subject) {
-  BCCSKEL_ASSIGN_OR_RETURN(const view::ResultDocument result,
-                           DocumentOf(subject.result, subject.world));
+  BCCSKEL_ASSIGN_OR_RETURN(const view::ResultDocument result, DocumentOf(subject));
   return SvgText(subject, result);
 }
 
 absl::StatusOr<std::string> PageText(const Subject& subject) {
-  BCCSKEL_ASSIGN_OR_RETURN(view::ResultDocument result, DocumentOf(subject.result, subject.world));
+  BCCSKEL_ASSIGN_OR_RETURN(view::ResultDocument result, DocumentOf(subject));
   result.text = std::make_shared<const std::string>(JsonText(subject, JsonParts::kForPage));
   BCCSKEL_ASSIGN_OR_RETURN(const view::Peeling peeling, PeelingOf(subject));
   return view::PageOf({subject.title, result, peeling}, subject.context);

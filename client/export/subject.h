@@ -1,8 +1,11 @@
 #ifndef BCCSKEL_CLIENT_EXPORT_SUBJECT_H_
 #define BCCSKEL_CLIENT_EXPORT_SUBJECT_H_
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "absl/status/statusor.h"
 #include "client/export/point_forest.h"
@@ -18,6 +21,12 @@ namespace bccskel::exporting {
 
 struct Subject;
 
+// Of a result that consists of the skeletons of many labels.
+struct SubjectLabels {
+  const std::vector<uint64_t>& of_nodes;  // one per node, ascending
+  const view::DisplaySurface& surfaces;   // of their objects, one label after the other
+};
+
 // Makes a PNG file of a subject.
 using Drawing = absl::StatusOr<std::string> (*)(const Subject&);
 
@@ -25,7 +34,7 @@ using Drawing = absl::StatusOr<std::string> (*)(const Subject&);
 // alive.
 struct Subject {
   const SkeletonizeResult& result;
-  const Volume& object;
+  const Volume& object;        // not used if there are labels
   std::string title;           // of pictures; plain text
   exec::Context context = {};  // for the surfaces of pages and pictures, which take time
   // The shells of the thinning, for a page; null: shells by the distance to the boundary.
@@ -36,7 +45,15 @@ struct Subject {
   CurveSampling swc = {};  // of SWC files
   // Draws .png files; this library is also installed without the one that draws.
   Drawing draw = nullptr;
+  std::optional<SubjectLabels> labels = std::nullopt;
 };
+
+// Errors: those of view::MakeDisplaySurface().
+inline absl::StatusOr<view::DisplaySurface> SurfaceOf(const Subject& subject,
+                                                      size_t most_triangles) {
+  if (subject.labels.has_value()) return subject.labels->surfaces;
+  return view::MakeDisplaySurface(subject.object, most_triangles, subject.context);
+}
 
 }  // namespace bccskel::exporting
 

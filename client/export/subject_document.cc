@@ -67,11 +67,21 @@ ResultDocument::Edge EdgeOf(const SkeletonGraph& graph, const SkeletonEdge& from
   return edge;
 }
 
+ResultDocument::Labels LabelsOf(const SubjectLabels& subject) {
+  ResultDocument::Labels labels;
+  for (const uint64_t label : subject.of_nodes) {
+    if (labels.names.empty() || labels.names.back() != label) labels.names.push_back(label);
+    labels.of_nodes.push_back(static_cast<uint32_t>(labels.names.size() - 1));
+  }
+  return labels;
+}
+
 }  // namespace
 
-absl::StatusOr<ResultDocument> DocumentOf(const SkeletonizeResult& result, const World& world) {
-  BCCSKEL_ASSIGN_OR_RETURN(ResultDocument document, FactsOf(result, world));
-  const SkeletonGraph& graph = result.graph;
+absl::StatusOr<ResultDocument> DocumentOf(const Subject& subject) {
+  BCCSKEL_ASSIGN_OR_RETURN(ResultDocument document, FactsOf(subject.result, subject.world));
+  if (subject.labels.has_value()) document.labels = LabelsOf(*subject.labels);
+  const SkeletonGraph& graph = subject.result.graph;
   const bool births = graph.HasBirths(), shifts = graph.HasShifts();
   document.nodes.reserve(graph.nodes.size());
   for (const SkeletonNode& node : graph.nodes) document.nodes.push_back(NodeOf(graph, node));

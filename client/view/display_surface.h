@@ -19,6 +19,8 @@ namespace bccskel::view {
 struct DisplaySurface {
   std::vector<WorldPoint> vertices;
   std::vector<SurfaceTriangle> triangles;  // counterclockwise seen from outside
+  // Of the objects of many labels, one after the other; empty for one object.
+  std::vector<size_t> triangles_of_labels = {};
 };
 
 // Simplification stays within the budget unless topology forbids it; then it comes close. If the

@@ -114,6 +114,13 @@ OrderedJson FrontJson(const PageContent& content) {
           {"climb", climb}};
 }
 
+// Names are text: numbers of 64 bits are too large for a script.
+OrderedJson LabelsJson(const ResultDocument::Labels& labels) {
+  OrderedJson json = {{"names", OrderedJson::array()}, {"of_nodes", labels.of_nodes}};
+  for (const uint64_t name : labels.names) json["names"].push_back(std::to_string(name));
+  return json;
+}
+
 absl::StatusOr<OrderedJson> DataOf(const PageContent& content) {
   const Quantizer quantize = QuantizerFor(BoxOf(content));
   OrderedJson data = {{"title", content.title},
@@ -122,11 +129,13 @@ absl::StatusOr<OrderedJson> DataOf(const PageContent& content) {
                       {"last_shell", content.peeling.last_shell},
                       {"layers", OrderedJson::array()}};
   for (const Peeled& layer : content.peeling.layers) {
-    const auto& [vertices, triangles] = layer.surface;
+    const auto& [vertices, triangles, of_labels] = layer.surface;
     BCCSKEL_ASSIGN_OR_RETURN(OrderedJson surface, SurfaceJson(vertices, triangles, quantize));
     surface["shells"] = layer.shells;
+    if (!of_labels.empty()) surface["parts"] = of_labels;
     data["layers"].push_back(std::move(surface));
   }
+  if (content.result.labels.has_value()) data["labels"] = LabelsJson(*content.result.labels);
   data["front"] = FrontJson(content);
   const SheetSurface sheets = SheetSurfaceOf(content.result);
   BCCSKEL_ASSIGN_OR_RETURN(data["sheets"], SheetsJson(sheets, quantize));

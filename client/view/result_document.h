@@ -57,9 +57,15 @@ struct ResultDocument : ResultFacts {
     std::vector<double> radii;    // one per point
     std::vector<int32_t> births;  // one per point, or none
   };
+  // Of the skeletons of many labels side by side.
+  struct Labels {
+    std::vector<uint64_t> names;     // each label once
+    std::vector<uint32_t> of_nodes;  // index into names, one per node
+  };
   std::vector<Node> nodes;
   std::vector<Edge> edges;
   Sheets sheets;
+  std::optional<Labels> labels;                // no document states them
   std::optional<Placement> placement;          // unknown in results of older versions
   PreparingOptions preparing;                  // the preparation of the object before thinning
   std::optional<std::vector<uint32_t>> roots;  // of a result with an order; indices into nodes

@@ -17,6 +17,12 @@ struct BettiNumbers {
   int64_t cavities = 0;
 
   friend constexpr bool operator==(const BettiNumbers&, const BettiNumbers&) = default;
+  constexpr BettiNumbers& operator+=(const BettiNumbers& other) {
+    components += other.components;
+    loops += other.loops;
+    cavities += other.cavities;
+    return *this;
+  }
   constexpr int64_t EulerCharacteristic() const { return components - loops + cavities; }
 };
 

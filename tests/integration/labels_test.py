@@ -2,6 +2,7 @@
 
 import csv
 import json
+import os
 import pathlib
 import re
 import xml.etree.ElementTree
@@ -54,6 +55,30 @@ class LabelsTest(harness.TestCase):
                 "skeletonize", self.image, "--label", str(label["label"]), "--local", "--json",
                 "-o", self.path("alone.json")))
             self.assertEqual(alone["sha256"], label["sha256"])
+
+    def test_a_picture_shows_all_labels_each_in_its_color(self):
+        self.labels(*harness.outputs(self.path(name) for name in ("a.svg", "a.png", "a.html")))
+        svg = (self.folder / "a.svg").read_text(encoding="utf-8")
+        self.assertIn(">labels.npy</text>", svg)
+        self.assertIn(">5 labels: ", svg)
+        self.assertIn(", 5 components, 1 loop, 0 cavities  ", svg)
+        self.assertIn(">each label in its own color</text>", svg)
+        lines = re.findall(r'<path stroke="(#[0-9a-f]{6})" d="M', svg)
+        self.assertEqual(len(set(lines)), 3)  # labels 1 and 8 are points
+        first = (self.folder / "a.html").read_bytes()
+        self.labels("-o", self.path("a.html"), "--threads", "3")
+        self.assertEqual((self.folder / "a.html").read_bytes(), first)
+
+    def test_a_picture_of_each_label_shows_its_object(self):
+        self.labels("--label", "3,12", "-o", self.path("{label}.svg"), "-o", self.path("{label}.png"))
+        for label in (3, 12):
+            self.assertGreater(os.path.getsize(self.path(f"{label}.png")), 5000)
+            svg = (self.folder / f"{label}.svg").read_text(encoding="utf-8")
+            self.assertIn(f">labels.npy, label {label}</text>", svg)
+            self.succeed("skeletonize", self.image, "--label", str(label), "-o", self.path("alone.svg"))
+            images = [re.findall('base64,([^"]*)', (self.folder / name).read_text(encoding="utf-8"))
+                      for name in (f"{label}.svg", "alone.svg")]
+            self.assertEqual(images[0], images[1])  # of the objects
 
     def test_a_server_makes_the_same_skeletons(self):
         chosen = ("--label", "3-12", "--min-voxels", "2", "--preset", "vessels",
@@ -206,8 +231,6 @@ class LabelsTest(harness.TestCase):
     def test_wrong_wishes_are_told(self):
         for words, code, message in (
                 (("-o", self.path("a.swc")), 2, "{label}"),
-                (("-o", self.path("{label}.svg")), 2,
-                 "pictures show one object; put all labels into a .glb or .vtp, draw one label with"),
                 (("-o", self.path("{label}.xyz")), 2, "no output format"),
                 (("--label", "77", "-o", self.path("a.vtp")), 3,
                  "no voxel has the label 77; "),

@@ -206,6 +206,44 @@ class TableTest(PageTestCase):
         page.click("#row-2 .only")
         self.assertEqual(page.text("#count-components"), "4")
 
+    def test_labels_are_colored_listed_and_hidden_with_their_glass(self):
+        huge = 2**64 - 1
+        image = numpy.zeros((9, 30, 80), "<u8")
+        image[2:7, 3:8, 3:37] = image[2:7, 8:25, 18:23] = 3
+        image[2:7, 12:17, 3:15] = 12
+        image[2:7, 12:17, 26:44] = image[2:7, 12:17, 50:75] = huge  # two components
+        numpy.save(self.path("labels.npy"), image)
+        self.succeed("labels", self.path("labels.npy"), "-o", self.path("s.html"), "-o",
+                     self.path("s.csv"))
+        page = self.open("#off=nodes")
+        self.assertIn("3 labels", page.text("#points"))
+        self.assertEqual(page.run("document.getElementById('color').value"), "label")
+        self.assertTrue(page.run("document.getElementById('ramp').hidden"))
+        page.click("#tab-components")
+        self.assertIn("Labels", page.text("#tab-components"))
+        self.assertEqual(page.text("#count-components"), "3")
+        self.assertEqual(self.column("label"), ["3", "12", str(huge)])
+        triangles = page.run("layers[0].userData.parts")
+        whole = page.picture()
+        page.click("#row-1 .only")
+        page.settle()
+        self.assertEqual(page.text("#count-components"), "1 of 3")
+        self.assertEqual(page.run("layers[0].drawRange.count"), 3 * triangles[1])
+        self.assertNotEqual(page.picture(), whole)
+        page.click("#row-1 .only")
+        page.settle()
+        self.assertEqual(page.run("layers[0].drawRange.count"), 3 * sum(triangles))
+        colors = page.run("""[...result.edges.keys()].map((id) =>
+            [partName(edgePart(id)), edgeColor(id).getHexString()])""")
+        self.assertEqual(len({color for _, color in colors}), len({label for label, _ in colors}))
+        page.click("#tab-branches")
+        self.assertIn(str(huge), self.column("label"))
+        with open(self.path("s.csv"), newline="", encoding="utf-8") as file:
+            theirs = list(csv.DictReader(file))
+        mine = list(csv.DictReader(io.StringIO(page.run("branchCsv()"))))
+        for name in ("label", "branch_id", "node_id_src", "node_id_dst", "branch_type"):
+            self.assertEqual([row[name] for row in mine], [row[name] for row in theirs])
+
     def test_the_table_joins_branches_as_pruning_does(self):
         page = self.open_sample(view_samples.forest(2))
         page.click("#dock-toggle")

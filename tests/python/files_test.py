@@ -72,8 +72,10 @@ class FilesTest(harness.TestCase):
         self.assertEqual(list(self.folder.glob("*none*")), [])
         with self.assertRaisesRegex(ValueError, "holds one label; write {label} where its number"):
             bccskel.save_labels(self.path("all.swc"), skeletons)
-        with self.assertRaisesRegex(ValueError, "pictures show one object"):
-            bccskel.save_labels(self.path("{label}.svg"), skeletons)
+        for name, title in (("all.svg", "2 labels"), ("one-{label}.svg", "label 300")):
+            bccskel.save_labels(self.path(name), skeletons)
+            picture = (self.folder / name.format(label=300)).read_text(encoding="utf-8")
+            self.assertIn(f">{title}</text>", picture)
         with self.assertRaises(OSError):
             bccskel.save_labels(self.path("missing/{label}.swc"), skeletons)
 

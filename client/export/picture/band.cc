@@ -34,10 +34,9 @@ std::array<float, 3> Mean(const std::vector<std::array<float, 3>>& of,
 
 Band::Band(int width, int top, int rows) : width_(width), top_(top), rows_(rows) {
   const size_t samples = Index(0, rows);
-  near_.assign(samples, {-kNothing, {}});
-  far_.assign(samples, {kNothing, {}});
-  bead_.assign(samples, {-kNothing, {}});
-  bead_color_.assign(samples, {});
+  near_.assign(samples, {-kNothing, {}, {}});
+  far_.assign(samples, {kNothing, {}, {}});
+  bead_.assign(samples, {-kNothing, {}, {}});
 }
 
 void Band::Draw(const Geometry& geometry) {
@@ -47,7 +46,7 @@ void Band::Draw(const Geometry& geometry) {
 }
 
 void Band::Draw(const Geometry& geometry, std::span<const uint32_t> beads) {
-  for (const SurfaceTriangle& triangle : geometry.glass.triangles) DrawTriangle(geometry, triangle);
+  for (size_t n = 0; n < geometry.glass.triangles.size(); ++n) DrawGlass(geometry, n);
   for (const uint32_t n : beads) DrawBead(geometry.beads[n]);
   for (const SurfaceTriangle& t : geometry.sheets.mesh.triangles) DrawSheet(geometry.sheets, t);
 }
@@ -78,9 +77,11 @@ void Band::ForEachSample(const SurfaceMesh& mesh, const SurfaceTriangle& triangl
   }
 }
 
-void Band::DrawTriangle(const Geometry& geometry, const SurfaceTriangle& triangle) {
+void Band::DrawGlass(const Geometry& geometry, size_t n) {
+  const SurfaceTriangle& triangle = geometry.glass.triangles[n];
+  const LinearColor& tint = geometry.tints.empty() ? kGlassTint : geometry.tints[n];
   ForEachSample(geometry.glass, triangle, [&](size_t at, float depth, const Weights& weights) {
-    const Hit hit = {depth, Mean(geometry.normals, triangle, weights)};
+    const Hit hit = {depth, Mean(geometry.normals, triangle, weights), tint};
     if (hit.depth > near_[at].depth) near_[at] = hit;
     if (hit.depth < far_[at].depth) far_[at] = hit;
   });
@@ -89,8 +90,8 @@ void Band::DrawTriangle(const Geometry& geometry, const SurfaceTriangle& triangl
 void Band::DrawSheet(const SheetGeometry& sheets, const SurfaceTriangle& triangle) {
   ForEachSample(sheets.mesh, triangle, [&](size_t at, float depth, const Weights& weights) {
     if (depth <= bead_[at].depth) return;
-    bead_[at] = {depth, Mean(sheets.normals, triangle, weights)};
-    bead_color_[at] = Mean(sheets.colors, triangle, weights);
+    bead_[at] = {depth, Mean(sheets.normals, triangle, weights),
+                 Mean(sheets.colors, triangle, weights)};
   });
 }
 
@@ -106,8 +107,7 @@ void Band::DrawBead(const Bead& bead) {
       const float rise = std::sqrt(rest);
       const size_t at = Index(x, y - top_);
       if (bead.depth + bead.radius * rise <= bead_[at].depth) continue;
-      bead_[at] = {bead.depth + bead.radius * rise, {dx, dy, rise}};
-      bead_color_[at] = bead.color;
+      bead_[at] = {bead.depth + bead.radius * rise, {dx, dy, rise}, bead.color};
     }
   }
 }

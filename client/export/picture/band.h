@@ -20,10 +20,13 @@ struct SheetGeometry {
   std::vector<LinearColor> colors;  // one per vertex
 };
 
+inline constexpr LinearColor kGlassTint = {0.47f, 0.61f, 0.80f};
+
 // The contents of all bands of a picture, in sample coordinates.
 struct Geometry {
   SurfaceMesh glass;  // vertices: x to the right, y up from the top edge (negative), depth
   std::vector<ViewNormal> normals;  // one per vertex
+  std::vector<LinearColor> tints;   // of the glass, one per triangle; empty: kGlassTint
   std::vector<Bead> beads;
   SheetGeometry sheets;
 };
@@ -32,6 +35,7 @@ struct Geometry {
 struct Hit {
   float depth;
   ViewNormal normal;
+  LinearColor color;
 };
 
 // A few rows of samples: the nearest and the farthest glass and the nearest bead or sheet of each.
@@ -47,7 +51,6 @@ class Band {
   const Hit& near_glass(int x, int row) const { return near_[Index(x, row)]; }
   const Hit& far_glass(int x, int row) const { return far_[Index(x, row)]; }
   const Hit& bead(int x, int row) const { return bead_[Index(x, row)]; }
-  const LinearColor& bead_color(int x, int row) const { return bead_color_[Index(x, row)]; }
 
  private:
   size_t Index(int x, int row) const {
@@ -55,7 +58,7 @@ class Band {
   }
   template <typename Visit>
   void ForEachSample(const SurfaceMesh& mesh, const SurfaceTriangle& triangle, Visit visit) const;
-  void DrawTriangle(const Geometry& geometry, const SurfaceTriangle& triangle);
+  void DrawGlass(const Geometry& geometry, size_t triangle);
   void DrawSheet(const SheetGeometry& sheets, const SurfaceTriangle& triangle);
   void DrawBead(const Bead& bead);
 
@@ -65,7 +68,6 @@ class Band {
   std::vector<Hit> near_;
   std::vector<Hit> far_;
   std::vector<Hit> bead_;
-  std::vector<LinearColor> bead_color_;
 };
 
 inline constexpr float kNothing = std::numeric_limits<float>::infinity();

@@ -16,21 +16,13 @@ PanelPoint Between(const PanelPoint& a, const PanelPoint& b, double part) {
   return {a.x + part * (b.x - a.x), a.y + part * (b.y - a.y), a.depth + part * (b.depth - a.depth)};
 }
 
-LinearColor ColorAt(int index) {
-  const auto rgb = RadiusRgb(index);
-  return {static_cast<float>(rgb[0] / 255), static_cast<float>(rgb[1] / 255),
-          static_cast<float>(rgb[2] / 255)};
-}
-
 class Stringer {
  public:
   Stringer(const view::ResultDocument& result, const Projection& projection, double thickness)
       : projection_(projection),
         thickness_(thickness),
-        range_(RadiusRangeOf(result)),
-        step_(StepOf(result, projection, thickness)) {
-    for (int n = 0; n < kRadiusColors; ++n) colors_[static_cast<size_t>(n)] = ColorAt(n);
-  }
+        colors_(result),
+        step_(StepOf(result, projection, thickness)) {}
 
   void AddEdge(const view::ResultDocument::Edge& edge) {
     const std::vector<WorldPoint> curve = SmoothedForDisplay(edge.points);
@@ -41,7 +33,7 @@ class Stringer {
         const double part = static_cast<double>(step) / steps;
         const double radius = edge.radii[n - 1] + part * (edge.radii[n] - edge.radii[n - 1]);
         beads_.push_back(BeadAt(Between(from, to, part), thickness_,
-                                colors_[static_cast<size_t>(RadiusColorIndex(radius, range_))]));
+                                LinearOf(colors_.Rgb(colors_.NumberAt(edge, radius)))));
       }
     }
   }
@@ -69,16 +61,30 @@ class Stringer {
 
   const Projection& projection_;
   const double thickness_;
-  const RadiusRange range_;
+  const CurveColors colors_;
   const double step_;
-  std::array<LinearColor, kRadiusColors> colors_;
   std::vector<Bead> beads_;
 };
 
 }  // namespace
 
+LinearColor LinearOf(const std::array<double, 3>& rgb) {
+  return {static_cast<float>(rgb[0] / 255), static_cast<float>(rgb[1] / 255),
+          static_cast<float>(rgb[2] / 255)};
+}
+
 LinearColor ColorOf(double radius, const RadiusRange& range) {
-  return ColorAt(RadiusColorIndex(radius, range));
+  return LinearOf(RadiusRgb(RadiusColorIndex(radius, range)));
+}
+
+CurveColors::CurveColors(const view::ResultDocument& result)
+    : labels_(result.labels.has_value() ? &*result.labels : nullptr),
+      range_(RadiusRangeOf(result)) {
+  const size_t count = labels_ == nullptr ? size_t{kRadiusColors} : labels_->names.size();
+  for (size_t n = 0; n < count; ++n) {
+    colors_.push_back(labels_ == nullptr ? RadiusRgb(static_cast<int>(n))
+                                         : LabelRgb(static_cast<uint32_t>(n)));
+  }
 }
 
 RadiusRange RadiusRangeOf(const view::ResultDocument& result) {

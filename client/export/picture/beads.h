@@ -23,8 +23,31 @@ struct Bead {
 
 RadiusRange RadiusRangeOf(const view::ResultDocument& result);
 
-// The color of beads and sheets of this radius.
+LinearColor LinearOf(const std::array<double, 3>& rgb);  // 0..255 each
+
+// The color of sheets of this radius.
 LinearColor ColorOf(double radius, const RadiusRange& range);
+
+// Curves are colored by radius, those of many labels by label. Needs: the result outlives it.
+class CurveColors {
+ public:
+  explicit CurveColors(const view::ResultDocument& result);
+
+  // Equal numbers mean equal colors. Needs: an edge of the result.
+  int NumberAt(const view::ResultDocument::Edge& edge, double radius) const {
+    if (labels_ == nullptr) return RadiusColorIndex(radius, range_);
+    return static_cast<int>(labels_->of_nodes[edge.source]);
+  }
+  const std::array<double, 3>& Rgb(int number) const {
+    return colors_[static_cast<size_t>(number)];
+  }
+  const RadiusRange& range() const { return range_; }
+
+ private:
+  const view::ResultDocument::Labels* labels_;
+  const RadiusRange range_;
+  std::vector<std::array<double, 3>> colors_;  // 0..255 each
+};
 
 inline constexpr LinearColor kEndColor = {0.06f, 0.72f, 0.51f};
 inline constexpr LinearColor kJunctionColor = {0.12f, 0.16f, 0.22f};

@@ -23,8 +23,11 @@ std::string BettiPhrase(const BettiNumbers& betti) {
          counted(betti.cavities, "cavity", "cavities");
 }
 
-std::string ObjectPhrase(const view::ResultFacts& result) {
-  return "object: " + Counted(result.object_points, "point", "points") + ", " +
+std::string ObjectPhrase(const view::ResultDocument& result) {
+  const std::string objects = result.labels.has_value()
+                                  ? Counted(result.labels->names.size(), "label", "labels")
+                                  : "object";
+  return objects + ": " + Counted(result.object_points, "point", "points") + ", " +
          BettiPhrase(result.certificate.input);
 }
 

@@ -21,7 +21,7 @@ std::string BettiPhrase(const BettiNumbers& betti);
 
 // The two lines under a picture's title: the input, and the result with its certificate.
 // `size`: of the skeleton, such as "12 points".
-std::string ObjectPhrase(const view::ResultFacts& result);
+std::string ObjectPhrase(const view::ResultDocument& result);
 std::string SkeletonPhrase(const view::ResultFacts& result, const std::string& size);
 
 }  // namespace bccskel::exporting

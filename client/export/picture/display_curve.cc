@@ -64,10 +64,25 @@ std::array<double, 3> RadiusRgb(int index) {
   return color;
 }
 
-std::string RadiusColor(int index) {
+std::string RadiusColor(int index) { return HexColor(RadiusRgb(index)); }
+
+Rgb LabelRgb(uint32_t place, double lightness) {
+  // HSL; the golden ratio spreads the hues of any number of labels.
+  constexpr double kGoldenRatio = 0.618034, kSaturation = 0.68;
+  const double hue = std::fmod(place * kGoldenRatio, 1);
+  const double reach = kSaturation * std::min(lightness, 1 - lightness);
+  Rgb color;
+  for (size_t n = 0; n < 3; ++n) {
+    const double at = std::fmod(hue * 12 + std::array{0.0, 8.0, 4.0}[n], 12);
+    color[n] = 255 * (lightness - reach * std::max(-1.0, std::min({at - 3, 9 - at, 1.0})));
+  }
+  return color;
+}
+
+std::string HexColor(const Rgb& rgb) {
   constexpr std::string_view kHex = "0123456789abcdef";
   std::string color = "#";
-  for (const double value : RadiusRgb(index)) {
+  for (const double value : rgb) {
     const auto byte = static_cast<size_t>(std::lround(value));
     color.push_back(kHex[byte >> 4]);
     color.push_back(kHex[byte & 15]);

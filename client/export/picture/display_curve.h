@@ -27,6 +27,10 @@ int RadiusColorIndex(double radius, const RadiusRange& range);  // 0..kRadiusCol
 std::array<double, 3> RadiusRgb(int index);                     // 0..255 each
 std::string RadiusColor(int index);                             // "#rrggbb"
 
+// The color of a label by its place in a list: neighbors have distant hues. As on the page.
+std::array<double, 3> LabelRgb(uint32_t place, double lightness = 0.42);  // 0..255 each
+std::string HexColor(const std::array<double, 3>& rgb);                   // "#rrggbb"
+
 }  // namespace bccskel::exporting
 
 #endif  // BCCSKEL_CLIENT_EXPORT_PICTURE_DISPLAY_CURVE_H_

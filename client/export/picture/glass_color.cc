@@ -31,24 +31,23 @@ void Cover(LinearColor& below, const LinearColor& above, float opacity) {
 }
 
 // `body` is the opacity of glass that faces the viewer.
-void CoverWithGlass(LinearColor& below, const ViewNormal& normal, float body) {
-  constexpr LinearColor kTint = {0.47f, 0.61f, 0.80f};
-  const Light light = LightOn(normal, 30);
+void CoverWithGlass(LinearColor& below, const Hit& glass, float body) {
+  const Light light = LightOn(glass.normal, 30);
   const float rim = 1 - light.facing;
   LinearColor color;
   for (size_t n = 0; n < 3; ++n) {
-    color[n] = kTint[n] * (0.70f + 0.42f * light.diffuse - 0.22f * rim) + 0.28f * light.gleam;
+    color[n] = glass.color[n] * (0.70f + 0.42f * light.diffuse - 0.22f * rim) + 0.28f * light.gleam;
   }
   Cover(below, color,
         body * (0.22f + 0.20f * (1 - light.diffuse)) + 0.80f * std::pow(rim, 1.7f) +
             0.18f * light.gleam);
 }
 
-LinearColor BeadColor(const LinearColor& color, const ViewNormal& normal) {
-  const Light light = LightOn(normal, 24);
+LinearColor BeadColor(const Hit& bead) {
+  const Light light = LightOn(bead.normal, 24);
   LinearColor shaded;
   for (size_t n = 0; n < 3; ++n) {
-    shaded[n] = color[n] * (0.55f + 0.5f * light.diffuse) + 0.35f * light.gleam;
+    shaded[n] = bead.color[n] * (0.55f + 0.5f * light.diffuse) + 0.35f * light.gleam;
   }
   return shaded;
 }
@@ -59,11 +58,11 @@ LinearColor ColorAt(const Band& band, int x, int row) {
   LinearColor color = kPaperColor;
   const Hit &near = band.near_glass(x, row), &far = band.far_glass(x, row);
   const Hit& bead = band.bead(x, row);
-  if (far.depth < near.depth) CoverWithGlass(color, far.normal, 0.15f);
+  if (far.depth < near.depth) CoverWithGlass(color, far, 0.15f);
   if (bead.depth != -kNothing) {
-    Cover(color, BeadColor(band.bead_color(x, row), bead.normal), 1);
+    Cover(color, BeadColor(bead), 1);
   }
-  if (near.depth > bead.depth) CoverWithGlass(color, near.normal, 0.8f);
+  if (near.depth > bead.depth) CoverWithGlass(color, near, 0.8f);
   return color;
 }
 

@@ -79,6 +79,11 @@ Geometry GlassOf(const view::DisplaySurface& surface, const Projection& projecti
   Geometry geometry;
   geometry.glass = {VerticesOf(surface.vertices, projection), surface.triangles};
   geometry.normals = NormalsOf(geometry.glass);
+  constexpr double kLightness = 0.55;
+  for (size_t n = 0; n < surface.triangles_of_labels.size(); ++n) {
+    const LinearColor tint = LinearOf(LabelRgb(static_cast<uint32_t>(n), kLightness));
+    geometry.tints.insert(geometry.tints.end(), surface.triangles_of_labels[n], tint);
+  }
   return geometry;
 }
 

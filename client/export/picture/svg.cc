@@ -47,7 +47,7 @@ struct Scene {
   const SvgContent& content;
   const view::ResultDocument& result;
   std::vector<WorldPoint> shown;
-  RadiusRange radii;
+  CurveColors colors;
   bool dense;  // thin lines and small nodes
   bool drawn;  // curves and nodes are in the glass images
 };
@@ -58,7 +58,7 @@ Scene SceneOf(const SvgContent& content) {
   return {.content = content,
           .result = content.result,
           .shown = view::ShownPoints(content.result, content.surface.vertices),
-          .radii = RadiusRangeOf(content.result),
+          .colors = CurveColors(content.result),
           .dense = content.result.nodes.size() > 300,
           .drawn = points > kMostPoints};
 }
@@ -82,7 +82,7 @@ std::vector<Bead> BeadsOf(const Scene& scene, const Projection& projection, doub
   for (size_t n = 0; n < sheets.points.size(); ++n) {
     const PanelPoint p = projection.Project(sheets.points[n]);
     beads.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.depth),
-                     static_cast<float>(radius), ColorOf(sheets.radii[n], scene.radii)});
+                     static_cast<float>(radius), ColorOf(sheets.radii[n], scene.colors.range())});
   }
   return beads;
 }
@@ -112,12 +112,12 @@ struct Stroke {
 };
 
 // Cuts a curve where its color changes, and often enough that strokes can be sorted by depth.
-void AppendStrokes(const view::ResultDocument::Edge& edge, const RadiusRange& radii,
+void AppendStrokes(const view::ResultDocument::Edge& edge, const CurveColors& colors,
                    const Projection& projection, std::vector<Stroke>& strokes) {
   constexpr size_t kLongest = 12;
   const std::vector<WorldPoint> curve = SmoothedForDisplay(edge.points);
   for (size_t n = 1; n < curve.size(); ++n) {
-    const int color = RadiusColorIndex((edge.radii[n - 1] + edge.radii[n]) / 2, radii);
+    const int color = colors.NumberAt(edge, (edge.radii[n - 1] + edge.radii[n]) / 2);
     const PanelPoint p = projection.Project(curve[n - 1]);
     const bool starts =
         n == 1 || strokes.back().color != color || strokes.back().points.size() >= kLongest;
@@ -129,7 +129,7 @@ void AppendStrokes(const view::ResultDocument::Edge& edge, const RadiusRange& ra
 std::vector<Stroke> StrokesFromBack(const Scene& scene, const Projection& projection) {
   std::vector<Stroke> strokes;
   for (const view::ResultDocument::Edge& edge : scene.result.edges) {
-    AppendStrokes(edge, scene.radii, projection, strokes);
+    AppendStrokes(edge, scene.colors, projection, strokes);
   }
   std::ranges::stable_sort(strokes, {}, &Stroke::depth);
   return strokes;
@@ -141,14 +141,15 @@ void AddPath(Text& svg, const Stroke& stroke, std::string_view style) {
   svg.Add("\"/>\n");
 }
 
-void AddStrokes(Text& svg, const std::vector<Stroke>& strokes, double width) {
+void AddStrokes(Text& svg, const std::vector<Stroke>& strokes, const CurveColors& colors,
+                double width) {
   svg.Add("<g fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\" stroke-width=\"",
           Rounded(width), "\">\n");
   // A halo under every stroke shows which of two crossing branches is in front.
   const std::string halo = "class=\"h\" stroke-width=\"" + std::to_string(width + 2.2) + "\"";
   for (const Stroke& stroke : strokes) {
     AddPath(svg, stroke, halo);
-    AddPath(svg, stroke, "stroke=\"" + RadiusColor(stroke.color) + "\"");
+    AddPath(svg, stroke, "stroke=\"" + HexColor(colors.Rgb(stroke.color)) + "\"");
   }
   svg.Add("</g>\n");
 }
@@ -164,8 +165,8 @@ void AddSheets(Text& svg, const Scene& scene, const Projection& projection) {
   const view::ResultDocument::Sheets& sheets = scene.result.sheets;
   std::vector<ColoredDot> dots;
   for (size_t n = 0; n < sheets.points.size(); ++n) {
-    dots.push_back(
-        {projection.Project(sheets.points[n]), RadiusColorIndex(sheets.radii[n], scene.radii)});
+    dots.push_back({projection.Project(sheets.points[n]),
+                    RadiusColorIndex(sheets.radii[n], scene.colors.range())});
   }
   std::ranges::stable_sort(dots, {}, [](const ColoredDot& dot) { return dot.at.depth; });
   svg.Add("<g fill=\"none\" stroke-linecap=\"round\" stroke-width=\"",
@@ -220,7 +221,7 @@ absl::Status AddPanel(Text& svg, const Scene& scene, const Panel& panel, const V
           image.height, "\" href=\"data:image/png;base64,", absl::Base64Escape(png), "\"/>\n");
   if (!scene.drawn) {
     AddSheets(svg, scene, projection);
-    AddStrokes(svg, StrokesFromBack(scene, projection), StrokeWidth(scene, boldness));
+    AddStrokes(svg, StrokesFromBack(scene, projection), scene.colors, StrokeWidth(scene, boldness));
     AddNodes(svg, scene.result, projection, (scene.dense ? 1.8 : 3.6) * boldness);
   }
   AddAxes(svg, view, panel.size);
@@ -259,8 +260,12 @@ void AddNodeLegend(Text& svg, double x, std::string_view kind, std::string_view 
   AddLegendText(svg, x + 12, "start", label);
 }
 
-void AddLegend(Text& svg, const RadiusRange& radii) {
-  AddRadiusLegend(svg, radii);
+void AddLegend(Text& svg, const Scene& scene) {
+  if (scene.result.labels.has_value()) {
+    AddLegendText(svg, 20, "start", "each label in its own color");
+  } else {
+    AddRadiusLegend(svg, scene.colors.range());
+  }
   AddNodeLegend(svg, 520, "end", "end");
   AddNodeLegend(svg, 588, "junction", "junction");
   AddNodeLegend(svg, 688, "isolated", "isolated point or closed surface");
@@ -295,15 +300,14 @@ absl::StatusOr<std::string> SvgText(const SvgContent& content) {
   for (size_t n = 0; n < kPanels.size(); ++n) {
     BCCSKEL_RETURN_IF_ERROR(AddPanel(svg, scene, kPanels[n], views[n]));
   }
-  if (!content.result.nodes.empty()) AddLegend(svg, scene.radii);
+  if (!content.result.nodes.empty()) AddLegend(svg, scene);
   svg.Add("</svg>\n");
   return std::move(svg).Take();
 }
 
 absl::StatusOr<std::string> SvgText(const Subject& subject, const view::ResultDocument& result) {
-  BCCSKEL_ASSIGN_OR_RETURN(
-      const view::DisplaySurface surface,
-      view::MakeDisplaySurface(subject.object, kMostSvgTriangles, subject.context));
+  BCCSKEL_ASSIGN_OR_RETURN(const view::DisplaySurface surface,
+                           SurfaceOf(subject, kMostSvgTriangles));
   return SvgText({subject.title, result, surface, subject.result.skeleton_points, subject.context});
 }
 

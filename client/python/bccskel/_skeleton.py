@@ -389,9 +389,9 @@ def _in_notebook() -> bool:
 
 
 def save_labels(path: Union[str, os.PathLike], skeletons: Mapping[int, Skeleton]) -> None:
-    """Writes the skeletons of labels of one image into one file, .vtp, .graphml, .json, .csv, .glb or
-    .mrk.json, or a .precomputed folder, as `bccskel labels` does. With `{label}` in its path one file
-    per label, in any format but pictures; folders that `{label}` names are made.
+    """Writes the skeletons of labels of one image into one file, .vtp, .graphml, .json, .csv, .glb,
+    .html, .svg, .png or .mrk.json, or a .precomputed folder, as `bccskel labels` does. With `{label}`
+    in its path one file per label, in any format; folders that `{label}` names are made.
 
     Raises ValueError for another ending, OSError where it cannot be written.
 

@@ -21,6 +21,7 @@
 #include "client/export/label_paths.h"
 #include "client/export/labeled_graph.h"
 #include "client/export/method_facts.h"
+#include "client/export/picture/caption.h"
 #include "client/export/skeleton_file.h"
 #include "client/python/native/compute.h"
 #include "client/python/native/edge_images.h"
@@ -322,8 +323,8 @@ absl::StatusOr<std::string> WriteLabels(const std::string& path, const LabelList
     BCCSKEL_RETURN_IF_ERROR(WriteEachLabel(path, labels, world, stop));
     return std::string();
   }
-  exporting::LabeledSkeletons all(labels.empty() ? std::nullopt : labels.front().second->root,
-                                  world);
+  exporting::LabeledSkeletons all(
+      {path}, labels.empty() ? std::nullopt : labels.front().second->root, world);
   for (const auto& [label, outcome] : labels) {
     const Outcome& first = *labels.front().second;
     if (outcome->result.graph.placement != first.result.graph.placement) {
@@ -331,7 +332,14 @@ absl::StatusOr<std::string> WriteLabels(const std::string& path, const LabelList
     }
     all.Add(label, outcome->voxels, outcome->result, stop);
   }
-  return exporting::WriteLabeledFile(path, all, stop);
+  cli::LocalTeam team(all.ShowsObjects() ? 0 : 1, stop);
+  if (all.ShowsObjects()) {
+    const auto object = [&](size_t n) { return labels[n].second->Object(); };
+    BCCSKEL_RETURN_IF_ERROR(all.AddObjects(object, team.context()));
+  }
+  return exporting::WriteLabeledFile(
+      path, all,
+      {exporting::Counted(labels.size(), "label", "labels"), team.context(), view::DrawSubject});
 }
 
 // What the format could not hold; empty if it held everything.

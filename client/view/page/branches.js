@@ -5,10 +5,10 @@ const levelOf = Float64Array.from(result.edges, (e) => e.pruning_level ?? Infini
 const byLevel = result.edges.map((_, id) => id)
   .sort((a, b) => levelOf[b] > levelOf[a] ? 1 : levelOf[b] < levelOf[a] ? -1 : a - b);
 
-const componentOf = (node) => nodeAt[node].component ?? 0;
-const edgeComponent = (id) => componentOf(result.edges[id].source);
-const hidden = new Set();  // components
-let order = byLevel;  // without hidden components
+const partAt = (node) => partOf(nodeAt[node]);
+const edgePart = (id) => partAt(result.edges[id].source);
+const hidden = new Set();  // parts
+let order = byLevel;  // without hidden parts
 
 // ---- Graphs ----
 
@@ -36,7 +36,8 @@ function measureBranch(branch, number) {
   const least = (numbers) => numbers.length ? Math.min(...numbers) : undefined;
   const most = (numbers) => numbers.length ? Math.max(...numbers) : undefined;
   Object.assign(branch, {
-    id: shared ? number : edges[0], component: componentOf(source), straight,
+    id: shared ? number : edges[0], component: nodeAt[source].component ?? 0,
+    part: partAt(source), label: labels && Number(partName(partAt(source))), straight,
     tortuosity: straight > 0 ? branch.length / straight : undefined,
     generation: least(figures("generation")), strahler: most(figures("strahler")) });
 }
@@ -68,25 +69,25 @@ function prunedTo(step) {
                          branchOf: (id) => branchOf.get(id) ?? id });
 }
 
-// Totals of every component, and of the visible part of the graph.
+// Totals of every part, and of the visible graph.
 function withoutHidden(graph) {
-  const components = [];
-  const totalsOf = (id) => components[id] ??=
-    { id, branches: 0, nodes: 0, length: 0, max: -Infinity };
+  const parts = [];
+  const totalsOf = (id) => parts[id] ??=
+    { id, label: Number(partName(id)), branches: 0, nodes: 0, length: 0, max: -Infinity };
   for (const n of graph.nodes) {
-    const totals = totalsOf(componentOf(n));
+    const totals = totalsOf(partAt(n));
     ++totals.nodes;
     totals.max = Math.max(totals.max, nodeAt[n].radius);
   }
   for (const branch of graph.branches.values()) {
-    const totals = totalsOf(branch.component);
+    const totals = totalsOf(branch.part);
     ++totals.branches;
     totals.length += branch.length;
     totals.max = Math.max(totals.max, branch.max);
-    if (hidden.has(branch.component)) graph.branches.delete(branch.id);
+    if (hidden.has(branch.part)) graph.branches.delete(branch.id);
   }
-  graph.components = components.filter(Boolean);
-  graph.nodes = graph.nodes.filter((n) => !hidden.has(componentOf(n)));
+  graph.parts = parts.filter(Boolean);
+  graph.nodes = graph.nodes.filter((n) => !hidden.has(partAt(n)));
   const firstGone = order.findIndex((id) => levelOf[id] <= graph.threshold);
   graph.edges = firstGone < 0 ? order.length : firstGone;
   graph.length = 0;

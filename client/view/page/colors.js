@@ -14,6 +14,7 @@ let theme = themes.light;
 
 // By a number per edge or per point, or only to tell edges apart.
 const colorings = {
+  ...(labels ? { label: { name: "label" } } : {}),
   radius: { name: "radius", unit, ofPoint: (e, n) => e.radii[n] },
   branch: { name: "branch" },
   length: { name: "length", unit, ofEdge: (e) => e.length },
@@ -24,7 +25,10 @@ const colorings = {
 for (const [id, { ofEdge }] of Object.entries(colorings)) {
   if (ofEdge && !result.edges.some((e) => Number.isFinite(ofEdge(e)))) delete colorings[id];
 }
-let coloring = colorings.radius;
+const kFirstColoring = labels ? "label" : "radius";
+let coloring = colorings[kFirstColoring];
+// Without a scale of numbers.
+const tellsApart = () => coloring === colorings.branch || coloring === colorings.label;
 
 class Span {
   least = Infinity;
@@ -53,10 +57,13 @@ function rampColor(value, { least, most }) {
                                                 place - stop);
 }
 // Consecutive numbers get distant hues.
-const branchColor = (id) =>
-  new THREE.Color().setHSL((id * 0.618034) % 1, 0.68, theme.lightness);
+const partColor = (number, lightness) =>
+  new THREE.Color().setHSL((number * 0.618034) % 1, 0.68, lightness);
 function edgeColor(id) {
-  if (coloring === colorings.branch) return branchColor(shown.branchOf(id));
+  if (tellsApart()) {
+    return partColor(coloring === colorings.branch ? shown.branchOf(id) : edgePart(id),
+                     theme.lightness);
+  }
   const value = coloring.ofEdge(result.edges[id]);
   return Number.isFinite(value) ? rampColor(value, coloring.range)
                                 : new THREE.Color(theme.junction);

@@ -13,6 +13,19 @@ const counted = (n, one, many) => `${digits(n)} ${n === 1 ? one : many}`;
 const escaped = (text) => text.replace(/[&<>"]/g, (c) => `&#${c.charCodeAt(0)};`);
 const words = (kind) => escaped(kind.replace("_", " "));
 
+// ---- Parts ----
+
+// What tables list and hide: components, or labels if there are many. Numbers count from 0, names
+// are text: labels may have 64 bits.
+const { labels } = data;
+const kPart = labels ? "Label" : "Component";
+const partName = (part) => labels ? labels.names[part] : `${part}`;
+const labelOfComponent = [];
+labels?.of_nodes.forEach((label, n) => {
+  labelOfComponent[result.nodes[n].component ?? 0] = label;
+});
+const partOf = ({ component = 0 }) => labels ? labelOfComponent[component] : component;
+
 // ---- Packed numbers ----
 
 async function unpack(text, count) {
@@ -47,5 +60,32 @@ async function surfaceGeometry(layer) {
   geometry.setIndex(new THREE.BufferAttribute(corners, 1));
   geometry.computeVertexNormals();
   geometry.computeBoundingBox();
+  if (layer.parts) tintParts(geometry, layer.parts);
   return geometry;
+}
+
+// Each label's glass in its color.
+function tintParts(geometry, parts) {
+  const hues = new Float32Array(geometry.attributes.position.array.length);
+  const corners = geometry.index.array.slice();
+  let at = 0;
+  parts.forEach((triangles, part) => {
+    const { r, g, b } = partColor(part, 0.55);
+    for (const end = at + 3 * triangles; at < end; ++at) hues.set([r, g, b], 3 * corners[at]);
+  });
+  geometry.setAttribute("hue", new THREE.BufferAttribute(hues, 3));
+  Object.assign(geometry.userData, { parts, corners });
+}
+// Leaves out the glass of hidden labels.
+function hideParts(geometry, hidden) {
+  const { index, userData: { parts, corners } } = geometry;
+  let from = 0, count = 0;
+  parts.forEach((triangles, part) => {
+    const own = corners.subarray(from, from += 3 * triangles);
+    if (hidden.has(part)) return;
+    index.array.set(own, count);
+    count += own.length;
+  });
+  index.needsUpdate = true;
+  geometry.setDrawRange(0, count);
 }

@@ -9,7 +9,7 @@ function peel() {
   ghost.wrap(layers[0]);
   core.group.visible = element("show-object").checked;
   ghost.group.visible = core.group.visible && at > 0;
-  core.uniforms.tint.value.setHex(at > 0 ? theme.core : theme.glass);
+  core.uniforms.tint.value.setHex(labels ? 0 : at > 0 ? theme.core : theme.glass);
   const strength = Number(element("strength").value);
   core.uniforms.strength.value = 1.6 * strength;
   ghost.uniforms.tint.value.setHex(theme.glass);
@@ -86,14 +86,14 @@ function showCounts() {
   element("counts").textContent = `${counted(shown.nodes.length, "node", "nodes")}, ` +
     `${counted(shown.branches.size, "branch", "branches")}, length ${measure(shown.length)}`;
   element("count-branches").textContent = digits(shown.branches.size);
-  element("count-components").textContent = hidden.size === 0 ? digits(shown.components.length)
-    : `${digits(shown.components.length - hidden.size)} of ${digits(shown.components.length)}`;
+  element("count-components").textContent = hidden.size === 0 ? digits(shown.parts.length)
+    : `${digits(shown.parts.length - hidden.size)} of ${digits(shown.parts.length)}`;
 }
 
 function showLegend() {
   const css = (hex) => `#${new THREE.Color(hex).getHexString()}`;
   const { range, name } = coloring, bar = element("ramp");
-  bar.hidden = coloring === colorings.branch || !(range.least <= range.most);
+  bar.hidden = tellsApart() || !(range.least <= range.most);
   bar.querySelector("i").style.background =
     `linear-gradient(to right, ${theme.ramp.map(css).join()})`;
   if (!bar.hidden) {
@@ -209,8 +209,10 @@ function listen() {
 function showPanels() {
   document.title = element("title").textContent = data.title;
   const world = result.world !== "unknown" && result.world;
-  element("points").textContent = [counted(result.object_points, "point", "points"), world, unit]
-    .filter(Boolean).join(" \u00b7 ");
+  element("points").textContent = [
+    labels && counted(labels.names.length, "label", "labels"),
+    counted(result.object_points, "point", "points"), world, unit].filter(Boolean).join(" \u00b7 ");
+  element("tab-components").firstChild.textContent = `${kPart}s `;
   for (const [id, { name }] of Object.entries(colorings)) {
     element("color").append(new Option(name, id));
   }
@@ -218,6 +220,7 @@ function showPanels() {
     head.textContent = inUnit(head.textContent);
   }
   for (const part of document.querySelectorAll(".of-object")) part.hidden = !data.layers.length;
+  if (labels) element("peel").closest("section").hidden = true;
   element("pruning").hidden = levels.length === 0;
   element("prune").max = levels.length;
   element("save-1x").disabled = element("save-2x").disabled = renderer === null;

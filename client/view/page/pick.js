@@ -78,7 +78,7 @@ function aboutBranch({ id, n }) {
                 ["min, max radius", `${figure(branch.min)}, ${measure(branch.max)}`],
                 ["radius here", measure(e.radii[n])]];
   if (branch.tortuosity !== undefined) rows.push(["tortuosity", figure(branch.tortuosity)]);
-  if (shown.components.length > 1) rows.push(["component", branch.component]);
+  if (shown.parts.length > 1) rows.push([kPart.toLowerCase(), partName(branch.part)]);
   for (const { name, ofEdge } of Object.values(colorings)) {
     if (!ofEdge || name === "length") continue;
     rows.push([name, Number.isFinite(ofEdge(e)) ? figure(ofEdge(e)) : "never"]);

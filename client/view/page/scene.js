@@ -3,18 +3,20 @@
 // Faint where the surface faces the viewer, dense toward its outlines, under a lamp from the upper
 // left.
 const glassVertex = `
-varying vec3 v_normal; varying vec3 v_view;
+attribute vec3 hue;  // black without
+varying vec3 v_normal; varying vec3 v_view; varying vec3 v_hue;
 #include <clipping_planes_pars_vertex>
 void main() {
   vec4 mvPosition = modelViewMatrix * vec4(position, 1.0);
   v_normal = normalMatrix * normal;
+  v_hue = hue;
   v_view = projectionMatrix[3][3] == 1.0 ? vec3(0.0, 0.0, 1.0) : -mvPosition.xyz;
   #include <clipping_planes_vertex>
   gl_Position = projectionMatrix * mvPosition;
 }`;
 const glassFragment = `
 uniform vec3 tint; uniform float strength; uniform float body;
-varying vec3 v_normal; varying vec3 v_view;
+varying vec3 v_normal; varying vec3 v_view; varying vec3 v_hue;
 #include <clipping_planes_pars_fragment>
 void main() {
   #include <clipping_planes_fragment>
@@ -22,7 +24,7 @@ void main() {
   if (dot(n, v) < 0.0) n = -n;
   float rim = 1.0 - dot(n, v), light = max(0.0, dot(n, lamp));
   float gleam = pow(max(0.0, dot(reflect(-lamp, n), v)), 30.0);
-  vec3 color = tint * (0.68 + 0.42 * light - 0.22 * rim) + 0.28 * gleam;
+  vec3 color = (tint + v_hue) * (0.68 + 0.42 * light - 0.22 * rim) + 0.28 * gleam;
   float cover = body * (0.30 + 0.22 * (1.0 - light)) + 1.1 * pow(rim, 1.7) + 0.2 * gleam;
   gl_FragColor = vec4(color, clamp(strength * cover, 0.0, 1.0));
 }`;

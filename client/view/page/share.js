@@ -12,13 +12,13 @@ function save(name, blob) {
 // their order.
 function branchCsv() {
   const ordered = result.order !== undefined;
-  const head = ["skeleton_id", "branch_id", "node_id_src", "node_id_dst", "branch_type",
+  const head = [...(labels ? ["label"] : []), "skeleton_id", "branch_id", "node_id_src", "node_id_dst", "branch_type",
                 "branch_distance", "euclidean_distance", "tortuosity", "mean_radius", "min_radius",
                 "max_radius", "coord_src_x", "coord_src_y", "coord_src_z", "coord_dst_x",
                 "coord_dst_y", "coord_dst_z", "pruning_level",
                 ...(ordered ? ["generation", "strahler"] : [])];
   const rows = table.rows.map((b) => [
-    b.component, b.id, b.source, b.target, b.type, b.length, b.straight, b.tortuosity, b.mean,
+    ...(labels ? [partName(b.part)] : []), b.component, b.id, b.source, b.target, b.type, b.length, b.straight, b.tortuosity, b.mean,
     b.min, b.max, ...nodeAt[b.source].position, ...nodeAt[b.target].position, b.level,
     ...(ordered ? [b.generation, b.strahler] : [])]);
   return [head, ...rows].map((row) => row.join()).join("\n") + "\n";
@@ -66,7 +66,7 @@ function stateText() {
   };
   for (const id of ["peel", "prune"]) slider(id);
   slider("strength", "glass");
-  if (coloring !== colorings.radius) state.set("color", element("color").value);
+  if (coloring !== colorings[kFirstColoring]) state.set("color", element("color").value);
   if (flipped) state.set("theme", root.dataset.theme);
   const { turn, climb, distance, target, flat } = view;
   state.set("view", [turn, climb, distance, ...target.toArray()].map(round).join("_"));
@@ -74,7 +74,7 @@ function stateText() {
   if (pins.length) state.set("pins", pins.join("."));
   if (cut.axis) state.set("cut", [cut.axis, round(cut.part), ...(cut.flipped ? ["back"] : []),
                                   ...(element("cut-all").checked ? ["all"] : [])].join("_"));
-  const visible = shown.components.map(({ id }) => id).filter((id) => !hidden.has(id));
+  const visible = shown.parts.map(({ id }) => id).filter((id) => !hidden.has(id));
   if (hidden.size > visible.length) state.set("only", visible.join("."));
   else if (hidden.size) state.set("hide", [...hidden].join("."));
   const off = ["object", "skeleton", "nodes"].filter((name) => !element(`show-${name}`).checked);
@@ -96,9 +96,9 @@ function grant(wish) {
     flipped = true;
     dress(wish.get("theme"));
   }
-  paint(colorings[wish.get("color")] ? wish.get("color") : "radius");
+  paint(colorings[wish.get("color")] ? wish.get("color") : kFirstColoring);
   const only = new Set(numbersOf(wish.get("only")));
-  setHidden(wish.has("only") ? shown.components.map(({ id }) => id).filter((id) => !only.has(id))
+  setHidden(wish.has("only") ? shown.parts.map(({ id }) => id).filter((id) => !only.has(id))
                              : numbersOf(wish.get("hide")));
   setPins(numbersOf(wish.get("pins")).filter((id) => id in result.edges));
   const [axis, part, ...more] = (wish.get("cut") ?? "").split("_");

@@ -3,11 +3,14 @@
 const inUnit = (name) => unit ? `${name} (${unit})` : name;
 const numberColumn = (key, title) => ({ key, title, show: (row) =>
   row[key] === undefined ? "" : figure(row[key]) });
-const many = result.nodes.some((n) => n.component > 0);
+const many = labels || result.nodes.some((n) => n.component > 0);
+// A label's number is close enough for an order; its name is exact.
+const partColumn = (key, partAt) => ({ key: labels ? "label" : key, title: kPart,
+                                       show: (row) => partName(partAt(row)) });
 const kColumns = {
   branches: [
     { key: "id", title: "Branch", show: (b) => b.id },
-    ...(many ? [{ key: "component", title: "Component", show: (b) => b.component }] : []),
+    ...(many ? [partColumn("component", (b) => b.part)] : []),
     { key: "kinds", title: "Ends", text: true, show: (b) => b.kinds },
     numberColumn("length", inUnit("Length")), numberColumn("mean", inUnit("Mean radius")),
     numberColumn("min", inUnit("Min radius")), numberColumn("max", inUnit("Max radius")),
@@ -19,7 +22,7 @@ const kColumns = {
   components: [
     { key: "shown", title: "Shown", text: true,
       show: (c) => hidden.has(c.id) ? "\u2610" : "\u2611" },
-    { key: "id", title: "Component", show: (c) => c.id },
+    partColumn("id", (c) => c.id),
     { key: "branches", title: "Branches", show: (c) => digits(c.branches) },
     { key: "nodes", title: "Nodes", show: (c) => digits(c.nodes) },
     numberColumn("length", inUnit("Length")), numberColumn("max", inUnit("Max radius")),
@@ -29,7 +32,8 @@ const kColumns = {
 
 // ---- Filter and order of rows ----
 
-const table = { about: "branches", sort: { branches: ["id", 1], components: ["id", 1] }, rows: [],
+const table = { about: "branches", rows: [],
+                sort: { branches: ["id", 1], components: [labels ? "label" : "id", 1] },
                 at: 0, filter: "" };
 const kRow = 28;  // pixels, as in style.css
 
@@ -44,14 +48,16 @@ function filterOf(text, columns) {
                         ">=": (v) => v >= limit, "=": (v) => v === Number(limit) }[sign];
       return (row) => row[column.key] !== undefined && against(Number(row[column.key]));
     }
-    if (/^\d+$/.test(term)) return (row) => row.id === Number(term);
+    if (/^\d+$/.test(term)) {
+      return (row) => row.edges ? row.id === Number(term) : partName(row.id) === term;
+    }
     return (row) => (row.kinds ?? "").includes(term);
   });
   return (row) => tests.every((test) => test(row));
 }
 
 function listRows() {
-  const all = table.about === "branches" ? [...shown.branches.values()] : shown.components;
+  const all = table.about === "branches" ? [...shown.branches.values()] : shown.parts;
   const [key, sign] = table.sort[table.about];
   const value = key === "shown" ? (row) => Number(!hidden.has(row.id)) : (row) => row[key];
   const compare = (a, b) => a < b ? -sign : a > b ? sign : 0;
@@ -157,11 +163,12 @@ function sortBy(key) {
   listRows();
   element("heads").querySelector(`[data-key="${key}"]`).focus();
 }
-function setHidden(components) {
+function setHidden(parts) {
   hidden.clear();
-  for (const id of components) hidden.add(id);
-  order = hidden.size ? byLevel.filter((id) => !hidden.has(edgeComponent(id))) : byLevel;
+  for (const part of parts) hidden.add(part);
+  order = hidden.size ? byLevel.filter((id) => !hidden.has(edgePart(id))) : byLevel;
   tubes.arrange();
+  if (labels && layers.length) hideParts(layers[0], hidden);
   prune();
 }
 function useRow(place, alone) {
@@ -173,7 +180,7 @@ function useRow(place, alone) {
     if (isPinned(row)) center(row);
     return;
   }
-  const others = shown.components.map(({ id }) => id).filter((id) => id !== row.id);
+  const others = shown.parts.map(({ id }) => id).filter((id) => id !== row.id);
   const lonely = others.every((id) => hidden.has(id)) && !hidden.has(row.id);
   if (alone) setHidden(lonely ? [] : others);
   else if (hidden.has(row.id)) setHidden([...hidden].filter((id) => id !== row.id));

@@ -111,8 +111,12 @@ class Words {
   void AddTitle(const ResultDocument& result, const std::string& title) {
     constexpr LinearColor kInk = {0.06f, 0.09f, 0.16f};
     WriteFitting(title, 2.4 * size_, 1.5, kInk, CAIRO_FONT_WEIGHT_BOLD);
-    const std::string object = exporting::GroupedDigits(result.object_points) + " points, " +
-                               exporting::BettiPhrase(result.certificate.input);
+    const std::string labels =
+        result.labels.has_value()
+            ? exporting::Counted(result.labels->names.size(), "label", "labels") + ", "
+            : "";
+    const std::string object = labels + exporting::GroupedDigits(result.object_points) +
+                               " points, " + exporting::BettiPhrase(result.certificate.input);
     const std::string skeleton =
         "skeleton: " + exporting::Counted(result.edges.size(), "branch", "branches") + ", " +
         VerdictInWords(result.certificate);
@@ -127,18 +131,10 @@ class Words {
 
   void AddLegend(const ResultDocument& result) {
     if (result.nodes.empty()) return;
-    const exporting::RadiusRange radii = exporting::RadiusRangeOf(result);
     const double base = height_ - 1.8 * size_;
-    double x = Label("radius " + Figure(radii.low), kMargin * size_, base);
-    cairo_set_antialias(pen_, CAIRO_ANTIALIAS_NONE);  // no seams
-    for (int n = 0; n < exporting::kRadiusColors; ++n) {
-      const auto rgb = exporting::RadiusRgb(n);
-      cairo_set_source_rgb(pen_, rgb[0] / 255, rgb[1] / 255, rgb[2] / 255);
-      cairo_rectangle(pen_, x + 0.45 * size_ * n, base - 0.75 * size_, 0.45 * size_, 0.8 * size_);
-      cairo_fill(pen_);
-    }
-    cairo_set_antialias(pen_, CAIRO_ANTIALIAS_DEFAULT);
-    x = Label(Figure(radii.high), x + (0.45 * exporting::kRadiusColors + 0.7) * size_, base);
+    double x = result.labels.has_value()
+                   ? Label("each label in its own color", kMargin * size_, base)
+                   : RadiusLegend(exporting::RadiusRangeOf(result), base);
     const auto has = [&](std::string_view kind) {
       return std::ranges::any_of(result.nodes, [&](const auto& node) { return node.kind == kind; });
     };
@@ -151,6 +147,20 @@ class Words {
  private:
   static constexpr double kMargin = 1.6;  // in font sizes
   static constexpr LinearColor kSoft = {0.28f, 0.33f, 0.41f};
+
+  // Returns the x coordinate of its end.
+  double RadiusLegend(const exporting::RadiusRange& radii, double base) {
+    const double x = Label("radius " + Figure(radii.low), kMargin * size_, base);
+    cairo_set_antialias(pen_, CAIRO_ANTIALIAS_NONE);  // no seams
+    for (int n = 0; n < exporting::kRadiusColors; ++n) {
+      const auto rgb = exporting::RadiusRgb(n);
+      cairo_set_source_rgb(pen_, rgb[0] / 255, rgb[1] / 255, rgb[2] / 255);
+      cairo_rectangle(pen_, x + 0.45 * size_ * n, base - 0.75 * size_, 0.45 * size_, 0.8 * size_);
+      cairo_fill(pen_);
+    }
+    cairo_set_antialias(pen_, CAIRO_ANTIALIAS_DEFAULT);
+    return Label(Figure(radii.high), x + (0.45 * exporting::kRadiusColors + 0.7) * size_, base);
+  }
 
   double Room() const { return width_ - 2 * kMargin * size_; }
 

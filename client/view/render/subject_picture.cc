@@ -9,11 +9,9 @@
 namespace bccskel::view {
 
 absl::StatusOr<std::string> DrawSubject(const exporting::Subject& subject) {
-  BCCSKEL_ASSIGN_OR_RETURN(const ResultDocument result,
-                           exporting::DocumentOf(subject.result, subject.world));
-  BCCSKEL_ASSIGN_OR_RETURN(
-      const DisplaySurface surface,
-      MakeDisplaySurface(subject.object, kMostPictureTriangles, subject.context));
+  BCCSKEL_ASSIGN_OR_RETURN(const ResultDocument result, exporting::DocumentOf(subject));
+  BCCSKEL_ASSIGN_OR_RETURN(const DisplaySurface surface,
+                           exporting::SurfaceOf(subject, kMostPictureTriangles));
   PictureOptions options;
   options.title = subject.title;
   return RenderPng(result, surface, options, subject.context);

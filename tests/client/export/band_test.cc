@@ -45,9 +45,9 @@ TEST(BandTest, SheetsHideWhatIsBehindThem) {
   band.Draw(geometry);
   EXPECT_FLOAT_EQ(band.bead(2, 2).depth, 7);
   EXPECT_FLOAT_EQ(band.bead(2, 2).normal[1], 1);
-  EXPECT_EQ(band.bead_color(2, 2), (LinearColor{0, 0, 1}));
+  EXPECT_EQ(band.bead(2, 2).color, (LinearColor{0, 0, 1}));
   EXPECT_FLOAT_EQ(band.bead(4, 15).depth, 8);  // the bead is nearer
-  EXPECT_EQ(band.bead_color(4, 15), (LinearColor{1, 0, 0}));
+  EXPECT_EQ(band.bead(4, 15).color, (LinearColor{1, 0, 0}));
   EXPECT_FLOAT_EQ(band.far_glass(10, 2).depth, 0);
 }
 

@@ -90,6 +90,12 @@ TEST(DisplayCurveTest, ColorsRunFromThinToThick) {
   EXPECT_EQ(RadiusColor(kRadiusColors - 1), "#f59e0b");
 }
 
+TEST(DisplayCurveTest, NeighboringLabelsHaveDistantHues) {
+  EXPECT_EQ(HexColor(LabelRgb(0)), "#b42222");
+  EXPECT_EQ(HexColor(LabelRgb(1)), "#224db4");
+  EXPECT_EQ(HexColor(LabelRgb(7)), "#28b422");
+}
+
 TEST(PictureTest, EveryKindOfSkeletonHasOneThatNamesItsTopologyAndNeedsNoNetwork) {
   for (const Sample& sample : Samples()) {
     const std::string svg = SvgOf(sample);
@@ -148,8 +154,8 @@ TEST(PictureTest, WithoutAnObjectShowsTheWholeCurves) {
 TEST(SubjectDocumentTest, EqualsTheOneReadFromTheText) {
   for (const Sample& sample : Samples()) {
     const view::ResultDocument read = DocumentOf(sample);
-    const view::ResultDocument made = *exporting::DocumentOf(sample.result, World());
     const Subject subject = {sample.result, sample.object, "x"};
+    const view::ResultDocument made = *exporting::DocumentOf(subject);
     EXPECT_EQ(*SvgText(subject, made), *SvgText(subject, read));
     EXPECT_EQ(made.options, read.options);
     EXPECT_EQ(made.object_points, read.object_points);
