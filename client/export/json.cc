@@ -184,6 +184,9 @@ std::string JsonText(const SkeletonizeResult& result, const std::optional<TreeOr
                      const World& world, JsonParts parts, const std::stop_token& stop) {
   const SkeletonGraph& graph = result.graph;
   Text text(stop);
+  // Too much rather than too little: memory that is not written to costs nothing.
+  text.Reserve(4096 + 150 * graph.nodes.size() + 400 * graph.edges.size() +
+               100 * (graph.points.size() + graph.sheets.size()));
   text.Add("{\n\"nodes\":");
   const GraphComponents components = ComponentsOf(graph, stop);
   AddList(text, ",\n", graph.nodes, [&](const SkeletonNode& n) {

@@ -193,7 +193,8 @@ std::string ShownOf(const ResultDocument& document, const exec::Context& context
     shown += "null";
     from = left_out.data() + left_out.size();
   }
-  return shown.append(from, text.data() + text.size());
+  shown.append(from, text.data() + text.size());
+  return shown;
 }
 
 // JSON for a script element, which no text in it may end.
@@ -209,8 +210,22 @@ std::string InScript(std::string_view json) {
   return text;
 }
 
-void Replace(std::string& page, std::string_view mark, std::string_view by) {
-  page.replace(page.find(mark), mark.size(), by);
+using Part = std::pair<std::string_view, std::string_view>;
+
+// The frame with `{{name}}` replaced by the part of this name. Needs: the frame has all of them, in
+// this order.
+std::string Filled(std::string_view frame, const std::vector<Part>& parts) {
+  size_t size = frame.size();
+  for (const Part& part : parts) size += part.second.size();
+  std::string page;
+  page.reserve(size);
+  for (const auto& [name, text] : parts) {
+    const std::string mark = "{{" + std::string(name) + "}}";
+    const size_t at = frame.find(mark);
+    page.append(frame.substr(0, at)).append(text);
+    frame.remove_prefix(at + mark.size());
+  }
+  return page.append(frame);
 }
 
 }  // namespace
@@ -220,18 +235,15 @@ absl::StatusOr<std::string> PageOf(const PageContent& content, const exec::Conte
   BCCSKEL_ASSIGN_OR_RETURN(const std::string result,
                            PackText(ShownOf(content.result, context), context));
   BCCSKEL_ASSIGN_OR_RETURN(const std::string three, PackText(kThree));
-  std::string page(kPageFrame);
-  // From last to first, so that inserted text is not searched for placeholders.
-  Replace(page, "{{loader}}", kLoaderScript);
-  Replace(page, "{{viewer}}", kViewerScripts);
-  Replace(page, "{{three}}", three);
-  Replace(page, "{{result}}", result);
-  Replace(
-      page, "{{data}}",
-      InScript(data.dump(-1, ' ', /*ensure_ascii=*/false, OrderedJson::error_handler_t::replace)));
-  Replace(page, "{{license}}", kThreeLicense);
-  Replace(page, "{{style}}", kPageStyle);
-  return page;
+  const std::string data_text =
+      InScript(data.dump(-1, ' ', /*ensure_ascii=*/false, OrderedJson::error_handler_t::replace));
+  return Filled(kPageFrame, {{"style", kPageStyle},
+                             {"license", kThreeLicense},
+                             {"data", data_text},
+                             {"result", result},
+                             {"three", three},
+                             {"viewer", kViewerScripts},
+                             {"loader", kLoaderScript}});
 }
 
 }  // namespace bccskel::view

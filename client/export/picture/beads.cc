@@ -22,7 +22,12 @@ class Stringer {
       : projection_(projection),
         thickness_(thickness),
         colors_(result),
-        step_(StepOf(result, projection, thickness)) {}
+        length_(projection.scale() * LengthOf(result)),
+        step_(length_ > kMany ? std::max(1.0, thickness) : 1) {
+    size_t most = result.nodes.size() + static_cast<size_t>(length_ / step_);
+    for (const view::ResultDocument::Edge& edge : result.edges) most += edge.points.size();
+    beads_.reserve(most);
+  }
 
   void AddEdge(const view::ResultDocument::Edge& edge) {
     const std::vector<WorldPoint> curve = SmoothedForDisplay(edge.points);
@@ -49,19 +54,19 @@ class Stringer {
   std::vector<Bead> Take() && { return std::move(beads_); }
 
  private:
-  // A bead per unit, but half as many as fit the thickness side by side where there are very many:
-  // the notches between them are then still far below a unit.
-  static double StepOf(const view::ResultDocument& result, const Projection& projection,
-                       double thickness) {
-    constexpr double kMany = 4e6;
+  // A bead per unit, but one per radius where there are very many: the notches between them are
+  // then still far below a pixel.
+  static constexpr double kMany = 4e6;
+  static double LengthOf(const view::ResultDocument& result) {
     double length = 0;
     for (const view::ResultDocument::Edge& edge : result.edges) length += edge.length;
-    return length * projection.scale() > kMany ? std::max(1.0, thickness / 2) : 1;
+    return length;
   }
 
   const Projection& projection_;
   const double thickness_;
   const CurveColors colors_;
+  const double length_;  // of all curves, in units of the projection
   const double step_;
   std::vector<Bead> beads_;
 };

@@ -13,16 +13,26 @@ namespace {
 constexpr int kSteps[3] = {1, kBrickX, kBrickX* kBrickY};  // to the next cell, in bits
 constexpr int kSizes[3] = {kBrickX, kBrickY, kBrickZ};
 
-int PlaceOf(int cell, size_t axis) { return cell / kSteps[axis] % kSizes[axis]; }
+constexpr int PlaceOf(int cell, size_t axis) { return cell / kSteps[axis] % kSizes[axis]; }
 
-// Pairs of neighboring cells along an axis inside of a brick of which one is empty.
+// 1 for cells whose neighbor along an axis lies in the same brick.
+constexpr auto kHasNext = [] {
+  std::array<std::array<uint8_t, kBrickPoints>, 3> has_next = {};
+  for (size_t axis = 0; axis < 3; ++axis) {
+    for (int cell = 0; cell < kBrickPoints; ++cell) {
+      has_next[axis][static_cast<size_t>(cell)] = PlaceOf(cell, axis) + 1 < kSizes[axis];
+    }
+  }
+  return has_next;
+}();
+
+// Pairs of neighboring cells along an axis inside of a brick of which one is empty. Without
+// branches, so that compilers vectorize it.
 int FacesInside(const CellGrid::Fills& fills, size_t axis) {
+  const auto step = static_cast<size_t>(kSteps[axis]);
   int faces = 0;
-  for (int cell = 0; cell < kBrickPoints; ++cell) {
-    if (PlaceOf(cell, axis) + 1 == kSizes[axis]) continue;
-    const size_t here = static_cast<size_t>(cell);
-    const size_t next = here + static_cast<size_t>(kSteps[axis]);
-    faces += (fills[here] == 0) != (fills[next] == 0);
+  for (size_t cell = 0; cell + step < kBrickPoints; ++cell) {
+    faces += kHasNext[axis][cell] & ((fills[cell] == 0) ^ (fills[cell + step] == 0));
   }
   return faces;
 }
@@ -35,16 +45,27 @@ int HalfPlaceOf(int cell, const BrickCoordinates& brick) {
   return (x / 2) * kSteps[0] + (y / 2) * kSteps[1] + (z / 2) * kSteps[2];
 }
 
+// The cells of a brick and those after them along each axis: the even points that have one of these
+// odd points as a neighbor. Neighbors in other bricks are not seen.
+BrickBits WithNextCells(BrickBits cells) {
+  constexpr uint64_t kFirstInX = 0x0001'0001'0001'0001;
+  for (uint64_t& layer : cells.words) {
+    layer |= layer << 1 & ~kFirstInX;
+    layer |= layer << kBrickX;
+  }
+  for (size_t z = cells.words.size(); --z > 0;) cells.words[z] |= cells.words[z - 1];
+  return cells;
+}
+
 // Of the even points of a brick.
 void KeepThoseWithoutOddNeighbors(const Volume& object, const BrickCoordinates& brick,
                                   BrickBits& points) {
-  // Most have the one in the same cell; the others are looked up one by one.
   const BrickKey odd({brick.bx, brick.by, brick.bz, Sublattice::kOdd});
-  if (const auto found = object.Find(odd)) {
-    points &= ~object.bricks()[*found];
-  }
+  if (const auto found = object.Find(odd)) points &= ~WithNextCells(object.bricks()[*found]);
   const BrickBits candidates = points;
   candidates.ForEachSetBit([&](int bit) {
+    const bool inside = PlaceOf(bit, 0) > 0 && PlaceOf(bit, 1) > 0 && PlaceOf(bit, 2) > 0;
+    if (inside) return;  // all its neighbors are in that brick
     const LatticePoint p = PointOf(brick, bit);
     for (const LatticePoint& step : std::span(kDirections14).first(8)) {
       if (object.Contains({p.x + step.x, p.y + step.y, p.z + step.z})) return points.Clear(bit);
