@@ -86,15 +86,30 @@ struct Tube {
 };
 
 // glTF's colors are linear.
-std::array<uint32_t, kRadiusColors> LinearColors() {
+uint32_t PackedColor(const std::array<double, 3>& rgb) {
+  uint32_t color = 0xff000000;
+  int shift = 0;
+  for (const double part : rgb) {
+    color |= static_cast<uint32_t>(std::lround(255 * std::pow(part / 255, 2.2))) << shift;
+    shift += 8;
+  }
+  return color;
+}
+std::array<uint32_t, kRadiusColors> RadiusColors() {
   std::array<uint32_t, kRadiusColors> colors;
-  for (size_t n = 0; n < colors.size(); ++n) {
-    colors[n] = 0xff000000;
-    int shift = 0;
-    for (const double part : RadiusRgb(static_cast<int>(n))) {
-      colors[n] |= static_cast<uint32_t>(std::lround(255 * std::pow(part / 255, 2.2))) << shift;
-      shift += 8;
-    }
+  for (size_t n = 0; n < colors.size(); ++n)
+    colors[n] = PackedColor(RadiusRgb(static_cast<int>(n)));
+  return colors;
+}
+
+// Of each node, counted from 0; none if the graph is of one object.
+std::vector<uint32_t> LabelColors(const GraphLabels& labels) {
+  std::vector<uint32_t> colors;
+  uint32_t place = 0;
+  for (size_t n = 0; n < labels.of_nodes.size(); ++n) {
+    const bool same = n > 0 && labels.of_nodes[n] == labels.of_nodes[n - 1];
+    if (n > 0 && !same) ++place;
+    colors.push_back(same ? colors.back() : PackedColor(LabelRgb(place)));
   }
   return colors;
 }
@@ -115,13 +130,16 @@ std::vector<Turn> TurnsOfRing(size_t tubes) {
 
 class TubeMaker {
  public:
-  TubeMaker(const WorldPoint& center, const SkeletonGraph& graph)
-      : center_(center), range_(RadiusRangeOf(graph)), turns_(TurnsOfRing(graph.edges.size())) {}
+  TubeMaker(const WorldPoint& center, const SkeletonGraph& graph, const GraphLabels& labels)
+      : center_(center),
+        range_(RadiusRangeOf(graph)),
+        label_colors_(LabelColors(labels)),
+        turns_(TurnsOfRing(graph.edges.size())) {}
 
   size_t sides() const { return turns_.size(); }
 
   // Rings that twist no more than the curve, and a cap at each end.
-  Tube Around(const std::vector<CurvePoint>& curve) const {
+  Tube Around(const SkeletonEdge& edge, const std::vector<CurvePoint>& curve) const {
     Tube tube = {{}, turns_.size()};
     tube.vertices.reserve(2 + curve.size() * turns_.size());
     Vector side = {0.36f, 0.48f, 0.8f};
@@ -136,6 +154,8 @@ class TubeMaker {
       AddRing(curve[n], side, Cross(along, side), tube);
       if (n + 1 == curve.size()) AddCap(curve[n], along, tube);
     }
+    if (label_colors_.empty()) return tube;
+    for (Vertex& vertex : tube.vertices) vertex.color = label_colors_[edge.source];
     return tube;
   }
 
@@ -163,7 +183,8 @@ class TubeMaker {
 
   const WorldPoint center_;
   const RadiusRange range_;
-  const std::array<uint32_t, kRadiusColors> colors_ = LinearColors();
+  const std::array<uint32_t, kRadiusColors> colors_ = RadiusColors();
+  const std::vector<uint32_t> label_colors_;  // by node
   const std::vector<Turn> turns_;
 };
 
@@ -324,7 +345,7 @@ constexpr size_t RoundedUp(size_t bytes) { return (bytes + 3) / 4 * 4; }
 absl::StatusOr<std::string> GlbBytes(const SkeletonGraph& graph, const GraphContext& context,
                                      const World& world) {
   const WorldPoint center = CenterOf(graph);
-  const TubeMaker maker(center, graph);
+  const TubeMaker maker(center, graph, context.labels);
   // A curve has about as many samples as points; one more for caps.
   Scene scene(graph.edges.size(), maker.sides() * (graph.points.size() + graph.edges.size()));
   for (size_t n = 0; n < graph.edges.size() && !context.stop.stop_requested(); ++n) {
@@ -332,7 +353,7 @@ absl::StatusOr<std::string> GlbBytes(const SkeletonGraph& graph, const GraphCont
     const std::vector<WorldPoint> smooth = SmoothCurve(graph, edge);
     const std::vector<CurvePoint> curve = SampledCurve(graph, edge, smooth);
     if (curve.empty()) continue;
-    const Tube tube = maker.Around(curve);
+    const Tube tube = maker.Around(edge, curve);
     if (!std::ranges::all_of(tube.vertices, IsFinite)) {
       return absl::InvalidArgumentError("the skeleton's coordinates do not fit a float32");
     }

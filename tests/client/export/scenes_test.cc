@@ -2,9 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "client/export/glb.h"
+#include "client/export/labeled_graph.h"
 #include "client/export/markups.h"
 #include "tests/client/export/sample_skeletons.h"
 
@@ -69,6 +72,30 @@ TEST(GlbTest, TubesAreAsThickAsTheObjectAndCornersAreVertices) {
   const Json& stem = scene["accessors"][0];
   EXPECT_GT(stem["max"][0].get<double>() - stem["min"][0].get<double>(), 2 + 2 + 2);
   EXPECT_LT(stem["max"][0].get<double>() - stem["min"][0].get<double>(), 2 + 2 + 4);
+}
+
+TEST(GlbTest, TubesOfLabelsHaveTheColorsOfTheLabels) {
+  SkeletonizeResult result;
+  result.graph = Lollipop();
+  LabeledSkeletons two({});
+  two.Add(3, 1, result);
+  two.Add(9, 1, result);
+  const std::string glb = *GlbBytes(two.all().graph, two.Context());
+  const Json scene = SceneOf(glb);
+  const size_t binary = 20 + WordAt(glb, 12) + 8;
+  std::map<std::string, std::set<uint32_t>> colors;  // by the label of the name
+  for (size_t n = 0; n < scene["meshes"].size(); ++n) {
+    const Json& attributes = scene["meshes"][n]["primitives"][0]["attributes"];
+    const Json& color = scene["accessors"][attributes["COLOR_0"].get<size_t>()];
+    const std::string name = scene["nodes"][n + 1]["name"];
+    for (size_t k = 0; k < color["count"]; ++k) {
+      const size_t at = color["byteOffset"].get<size_t>() + 28 * k;
+      colors[name.substr(0, 7)].insert(WordAt(glb, binary + at));
+    }
+  }
+  // The linear forms of #b42222 and #224db4.
+  EXPECT_THAT(colors["label 3"], ElementsAre(0xff030376));
+  EXPECT_THAT(colors["label 9"], ElementsAre(0xff761203));
 }
 
 TEST(GlbTest, KeepsItsFigureFarFromTheOrigin) {
