@@ -42,6 +42,10 @@ void AddCavities(const SkeletonizeResult& result, Notes& notes) {
       "--fill-cavities fills cavities before thinning");
 }
 
+// Noise that opens so many tunnels also makes bumps. They remain where tunnels are closed, and have
+// branches of their own. Where each voxel has more than two points, denoising leaves them.
+constexpr int64_t kLoopsOfRoughSurface = 10;
+
 // Tunnels that noise opens split limbs into rings, which have no ends.
 void AddNarrowLoops(const SkeletonizeResult& result, Notes& notes) {
   const SkeletonizeOptions& options = result.options;
@@ -70,9 +74,15 @@ void AddNarrowLoops(const SkeletonizeResult& result, Notes& notes) {
                     "200 drops specks before");
     return;
   }
-  notes.push_back(what + absl::StrFormat(", as noise produces them; --cut-loops %g closes such "
-                                         "tunnels before thinning",
-                                         RoundedUp(width)));
+  const bool rough = loops >= kLoopsOfRoughSurface && preparing.denoise_passes == 0 &&
+                     options.source == ObjectSource::kVoxels;
+  notes.push_back(what +
+                  absl::StrFormat(", as noise produces them; --cut-loops %g closes such "
+                                  "tunnels before thinning",
+                                  RoundedUp(width)) +
+                  (rough ? "; if the surface is rough, --denoise 2 --min-component 200 smooths it "
+                           "but removes limbs one or two lattice units thick"
+                         : ""));
 }
 
 // The lattice points of a voxel, and of a row of voxels for each more. Those on its faces count,

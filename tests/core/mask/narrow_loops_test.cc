@@ -20,9 +20,12 @@
 namespace bccskel {
 namespace {
 
+using testing::Contains;
+using testing::Each;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 // A bar of 40 x 7 x 7 voxels with square holes across it, each as wide as told, and a voxel in the
 // middle of the last one, or just above if it is that narrow, if there shall be dust.
@@ -101,8 +104,8 @@ TEST(NarrowLoops, AreMeasuredBetweenLimbsOfAnyThickness) {
   }
 }
 
-// Those inside the grid have four sides.
-TEST(NarrowLoops, AreCountedInAGridOfHoles) {
+// A plate with 16 holes of a voxel; those inside the grid have four sides.
+SkeletonizeResult GridOfHoles() {
   test::ReferenceMask mask{50, 50, 11, std::vector<uint8_t>(50 * 50 * 11)};
   const auto is_hole = [](int32_t at) { return at % 9 == 0; };
   for (int32_t z = 2; z < 9; ++z) {
@@ -112,8 +115,11 @@ TEST(NarrowLoops, AreCountedInAGridOfHoles) {
       }
     }
   }
-  const SkeletonGraph graph =
-      Skeletonize(Converted(mask, {}, {}).volume, {.source = ObjectSource::kVoxels}, {})->graph;
+  return *Skeletonize(Converted(mask, {}, {}).volume, {.source = ObjectSource::kVoxels}, {});
+}
+
+TEST(NarrowLoops, AreCountedInAGridOfHoles) {
+  const SkeletonGraph graph = GridOfHoles().graph;
   ASSERT_EQ(TotalOf(ComponentsOf(graph)).loops, 16u);
   EXPECT_EQ(CountNarrowLoops(graph, 3), 16u);
 }
@@ -127,6 +133,16 @@ TEST(NarrowLoops, AreNotedWithTheOptionThatClosesThem) {
   const SkeletonizeResult closed = BarWithHoles({1, 1, 5}, 8, {.tunnel_width = 16});
   EXPECT_EQ(closed.certificate.skeleton.loops, 1);
   EXPECT_THAT(NotesOn(closed), ElementsAre(HasSubstr("loops 3 -> 1")));
+}
+
+TEST(NarrowLoops, AreNotedWithTheOptionForRoughSurfacesIfThereAreMany) {
+  SkeletonizeResult result = GridOfHoles();
+  EXPECT_THAT(NotesOn(result),
+              Contains(HasSubstr("before thinning; if the surface is rough, --denoise 2 "
+                                 "--min-component 200 smooths it but removes limbs")));
+  result.options.preparing.denoise_passes = 1;
+  EXPECT_THAT(NotesOn(result), Contains(HasSubstr("--cut-loops 2 closes")));
+  EXPECT_THAT(NotesOn(result), Each(Not(HasSubstr("--denoise"))));
 }
 
 TEST(NarrowLoops, AreNotedWithFewDigits) {
