@@ -1,6 +1,7 @@
 """Several servers on one PostgreSQL database and one folder."""
 
 import concurrent.futures
+import functools
 import pathlib
 import signal
 import tempfile
@@ -17,8 +18,20 @@ from interface import (CallTest, Code, durable, example, jobs, service_grpc, she
                        torus_loops, volumes)
 from server_process import ServerProcess
 
-# A few seconds of one thread, so that a server can be ended meanwhile.
-SLOW = (400.0, 130.0)
+POSTGRES = None  # of all tests, each of which has a database of its own
+
+
+def setUpModule():
+    global POSTGRES
+    if postgres_process.programs():
+        POSTGRES = postgres_process.PostgresProcess()
+        unittest.addModuleCleanup(POSTGRES.close)
+
+
+@functools.cache
+def slow_volume():
+    """A few seconds of one thread, so that a server can be ended meanwhile."""
+    return volume(400.0, 130.0)
 
 
 class Server(JobCalls):
@@ -49,8 +62,8 @@ class FleetTest(CallTest):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.data = pathlib.Path(folder.name) / "data"
-        self.postgres = postgres_process.PostgresProcess()
-        self.addCleanup(self.postgres.close)
+        self.postgres = POSTGRES
+        self.postgres.make("jobs")
 
     def process(self, *flags):
         return ServerProcess("--data-dir", str(self.data), "--job-store", self.postgres.url,
@@ -82,7 +95,7 @@ class AnyServerTest(FleetTest):
 
     def test_progress_reaches_who_watches_on_any_server(self):
         servers = self.start()
-        job = servers[0].create(servers[0].send(*volume(*SLOW))).name
+        job = servers[0].create(servers[0].send(*slow_volume())).name
         with concurrent.futures.ThreadPoolExecutor(2) as pool:
             watches = [pool.submit(lambda server=server: list(durable.watch(server.channel, job)))
                        for server in servers]
@@ -97,7 +110,7 @@ class AnyServerTest(FleetTest):
 
     def test_a_job_is_cancelled_on_a_server_that_does_not_run_it(self):
         first, second = self.start()
-        name = first.send(*volume(*SLOW))
+        name = first.send(*slow_volume())
         job = first.create(name).name
         first.wait_for(job, jobs.JOB_STATE_RUNNING)
         watch = threading.Thread(target=first.finish, args=(job,))
@@ -113,7 +126,7 @@ class AnyServerTest(FleetTest):
 
     def test_who_watches_a_job_that_is_deleted_elsewhere_hears_its_end(self):
         first, second = self.start()
-        job = first.create(first.send(*volume(*SLOW))).name
+        job = first.create(first.send(*slow_volume())).name
         first.wait_for(job, jobs.JOB_STATE_RUNNING)
         with concurrent.futures.ThreadPoolExecutor(1) as pool:
             heard = pool.submit(first.finish, job)
@@ -192,12 +205,13 @@ class UploadTest(FleetTest):
 class LossTest(FleetTest):
     def running_on(self, servers):
         """A slow job, the server that runs it, and the other one."""
-        job = servers[0].create(servers[0].send(*volume(*SLOW))).name
+        job = servers[0].create(servers[0].send(*slow_volume())).name
         servers[0].wait_for(job, jobs.JOB_STATE_RUNNING)
         while True:  # the log is written by a thread of its own
             for runner, other in (servers, reversed(servers)):
                 if runner.warnings('"state":"RUNNING"'):
                     return job, runner, other
+            time.sleep(0.02)
 
     def test_jobs_of_a_killed_server_go_on_elsewhere(self):
         first, second = self.start()
@@ -242,6 +256,7 @@ class LossTest(FleetTest):
                 break
             except grpc.RpcError as error:
                 self.assertEqual(error.code(), Code.UNAVAILABLE)
+                time.sleep(0.02)
         for job in [*made, later]:
             self.assertEqual(second.finish(job)[-1], jobs.JOB_STATE_SUCCEEDED)
         self.assertEqual([first.create(name, f"request-{n}", options=shell_width(1 + n / 64)).name
@@ -268,10 +283,8 @@ class StartTest(FleetTest):
     def test_a_folder_is_shared_by_servers_of_one_database_only(self):
         self.start(1)
         self.assertIn("another server owns", self.refused("--data-dir", str(self.data)))
-        other = postgres_process.PostgresProcess()
-        self.addCleanup(other.close)
         self.assertIn("belongs to another job store", self.refused(
-            "--data-dir", str(self.data), "--job-store", other.url))
+            "--data-dir", str(self.data), "--job-store", self.postgres.make("other")))
 
     def test_an_older_server_refuses_the_tables_of_a_newer_one(self):
         self.start(1)[0].process.stop()

@@ -25,8 +25,14 @@ class PostgresProcess:
         self.run("initdb", "-D", self.folder / "data", "-A", "trust", "-U", "test", "-E", "UTF8",
                  "--no-sync")
         self.control("start")
-        self.run("createdb", "-h", self.folder, "-U", "test", "jobs")
-        self.url = f"postgresql://test@/jobs?host={self.folder}"
+        self.url = self.make("jobs")
+
+    def make(self, database):
+        """The URL of an empty database of this name, in place of the one before, if any."""
+        server = ("-h", self.folder, "-U", "test", database)
+        self.run("dropdb", "--if-exists", "--force", *server)
+        self.run("createdb", *server)
+        return f"postgresql://test@/{database}?host={self.folder}"
 
     def run(self, program, *arguments):
         with open(f"{self.folder}.log", "w", encoding="utf-8") as log:  # pg_ctl's child keeps it
