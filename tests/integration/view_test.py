@@ -1,5 +1,6 @@
 """Pages that `bccskel view` and `-o x.html` make: what they show, and where they work."""
 
+import functools
 import html
 import json
 import os
@@ -11,17 +12,21 @@ import harness
 import view_samples
 
 
+@functools.cache
+def shared_browser():
+    """Starting one, and the first page of each, take as long as four pages more."""
+    shared = browser.Browser().__enter__()
+    unittest.addModuleCleanup(shared.__exit__, None, None, None)
+    return shared
+
+
 @unittest.skipIf(browser.CHROMIUM is None, "chromium is not installed")
 class PageTestCase(harness.TestCase):
-    """A test with a browser, which the tests of a class share."""
-
-    @classmethod
-    def setUpClass(cls):
-        cls.browser = browser.Browser().__enter__()
-        cls.addClassCleanup(cls.browser.__exit__, None, None, None)
+    """A test with a browser, which the tests of a program share."""
 
     def setUp(self):
         super().setUp()
+        self.browser = shared_browser()
         self.browser.resize(1200, 800)
         self.browser.prefer(color_scheme="light", reduced_motion="reduce")
 
