@@ -122,7 +122,8 @@ absl::StatusOr<std::string> WriteLabeledFile(const std::string& path,
              .root = skeletons.root(),
              .world = skeletons.world(),
              .draw = picture.draw,
-             .labels = SubjectLabels{context.labels.of_nodes, skeletons.surfaces()}});
+             .labels = SubjectLabels{context.labels.of_nodes, context.labels.of_sheets,
+                                     skeletons.surfaces()}});
 }
 
 }  // namespace bccskel::exporting

@@ -23,8 +23,9 @@ struct Subject;
 
 // Of a result that consists of the skeletons of many labels.
 struct SubjectLabels {
-  const std::vector<uint64_t>& of_nodes;  // one per node, ascending
-  const view::DisplaySurface& surfaces;   // of their objects, one label after the other
+  const std::vector<uint64_t>& of_nodes;   // one per node, ascending
+  const std::vector<uint64_t>& of_sheets;  // one per point of the sheets
+  const view::DisplaySurface& surfaces;    // of their objects, one label after the other
 };
 
 // Makes a PNG file of a subject.

@@ -1,5 +1,6 @@
 #include "client/export/subject_document.h"
 
+#include <algorithm>
 #include <optional>
 #include <string>
 
@@ -72,6 +73,10 @@ ResultDocument::Labels LabelsOf(const SubjectLabels& subject) {
   for (const uint64_t label : subject.of_nodes) {
     if (labels.names.empty() || labels.names.back() != label) labels.names.push_back(label);
     labels.of_nodes.push_back(static_cast<uint32_t>(labels.names.size() - 1));
+  }
+  for (const uint64_t label : subject.of_sheets) {  // each has nodes as well
+    const auto name = std::ranges::lower_bound(labels.names, label);
+    labels.of_sheets.push_back(static_cast<uint32_t>(name - labels.names.begin()));
   }
   return labels;
 }

@@ -97,6 +97,8 @@ absl::StatusOr<OrderedJson> SheetsJson(const SheetSurface& sheets, const Quantiz
   std::vector<uint32_t> radii;
   for (const double radius : sheets.radii) radii.push_back(quantize(radius + quantize.low[0], 0));
   BCCSKEL_ASSIGN_OR_RETURN(json["radii"], PackNumbers(radii));
+  if (sheets.labels.empty()) return json;
+  BCCSKEL_ASSIGN_OR_RETURN(json["labels"], PackNumbers(sheets.labels));
   return json;
 }
 

@@ -59,8 +59,9 @@ struct ResultDocument : ResultFacts {
   };
   // Of the skeletons of many labels side by side.
   struct Labels {
-    std::vector<uint64_t> names;     // each label once
-    std::vector<uint32_t> of_nodes;  // index into names, one per node
+    std::vector<uint64_t> names;      // each label once, ascending
+    std::vector<uint32_t> of_nodes;   // index into names, one per node
+    std::vector<uint32_t> of_sheets;  // the same per point of the sheets
   };
   std::vector<Node> nodes;
   std::vector<Edge> edges;

@@ -19,6 +19,7 @@ constexpr int kSmoothingSteps = 3;
 struct Spot {
   LatticePoint point;
   double radius;
+  uint32_t label = 0;
 };
 
 // nullopt for positions beyond any lattice, as from a damaged placement.
@@ -30,12 +31,25 @@ std::optional<LatticePoint> NearestPoint(const std::array<double, 3>& place) {
   return LatticePoint{rounded(place[0]), rounded(place[1]), rounded(place[2])};
 }
 
+// In the order of BallsOf(). Needs: labels.
+std::vector<uint32_t> LabelsOfBalls(const ResultDocument& result) {
+  std::vector<uint32_t> labels = result.labels->of_nodes;
+  for (const ResultDocument::Edge& edge : result.edges) {
+    labels.insert(labels.end(), edge.points.size(), result.labels->of_nodes[edge.source]);
+  }
+  labels.insert(labels.end(), result.labels->of_sheets.begin(), result.labels->of_sheets.end());
+  return labels;
+}
+
 // All points of the skeleton, each once, in lattice order.
 std::vector<Spot> SpotsOf(const ResultDocument& result, const Placement& placement) {
+  const std::vector<OpenBall> balls = BallsOf(result, placement);
+  const std::vector<uint32_t> labels =
+      result.labels.has_value() ? LabelsOfBalls(result) : std::vector<uint32_t>(balls.size());
   std::vector<Spot> spots;
-  for (const OpenBall& ball : BallsOf(result, placement)) {
-    const std::optional<LatticePoint> p = NearestPoint(ball.center);
-    if (p.has_value()) spots.push_back({*p, ball.radius});
+  for (size_t n = 0; n < balls.size(); ++n) {
+    const std::optional<LatticePoint> p = NearestPoint(balls[n].center);
+    if (p.has_value()) spots.push_back({*p, balls[n].radius, labels[n]});
   }
   std::ranges::sort(spots, {}, &Spot::point);
   // std::ranges::unique does not compile with clang 14 and this standard library.
@@ -58,7 +72,7 @@ std::vector<SurfaceTriangle> TrianglesOf(const std::vector<Spot>& spots) {
     later.clear();
     for (const LatticePoint& step : kDirections14) {
       const std::optional<uint32_t> at = Find(spots, spots[n].point + step);
-      if (at.has_value() && *at > n) later.push_back(*at);
+      if (at.has_value() && *at > n && spots[*at].label == spots[n].label) later.push_back(*at);
     }
     for (size_t b = 1; b < later.size(); ++b) {
       for (size_t a = 0; a < b; ++a) {
@@ -119,6 +133,7 @@ SheetSurface SheetSurfaceOf(const ResultDocument& result) {
         vertex = static_cast<uint32_t>(sheets.vertices.size());
         sheets.vertices.push_back(result.placement->ToWorld(spots[corner].point));
         sheets.radii.push_back(spots[corner].radius);
+        if (result.labels.has_value()) sheets.labels.push_back(spots[corner].label);
       }
       corner = *vertex;
     }

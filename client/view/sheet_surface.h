@@ -1,6 +1,7 @@
 #ifndef BCCSKEL_CLIENT_VIEW_SHEET_SURFACE_H_
 #define BCCSKEL_CLIENT_VIEW_SHEET_SURFACE_H_
 
+#include <cstdint>
 #include <vector>
 
 #include "client/view/result_document.h"
@@ -12,7 +13,8 @@ namespace bccskel::view {
 // smoothed. They have no inside and no outside.
 struct SheetSurface {
   std::vector<WorldPoint> vertices;
-  std::vector<double> radii;  // one per vertex, world units
+  std::vector<double> radii;     // one per vertex, world units
+  std::vector<uint32_t> labels;  // one per vertex, index into the result's labels; empty if none
   std::vector<SurfaceTriangle> triangles;
 };
 

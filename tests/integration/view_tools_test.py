@@ -208,31 +208,37 @@ class TableTest(PageTestCase):
 
     def test_labels_are_colored_listed_and_hidden_with_their_glass(self):
         huge = 2**64 - 1
-        image = numpy.zeros((9, 30, 80), "<u8")
+        image = numpy.zeros((14, 30, 80), "<u8")
         image[2:7, 3:8, 3:37] = image[2:7, 8:25, 18:23] = 3
         image[2:7, 12:17, 3:15] = 12
         image[2:7, 12:17, 26:44] = image[2:7, 12:17, 50:75] = huge  # two components
+        image[1:13, 18:29, 50:75] = 5
+        image[4:10, 21:26, 53:72] = 0  # a closed surface
         numpy.save(self.path("labels.npy"), image)
         self.succeed("labels", self.path("labels.npy"), "-o", self.path("s.html"), "-o",
                      self.path("s.csv"))
         page = self.open("#off=nodes")
-        self.assertIn("3 labels", page.text("#points"))
+        self.assertIn("4 labels", page.text("#points"))
         self.assertEqual(page.run("document.getElementById('color').value"), "label")
         self.assertTrue(page.run("document.getElementById('ramp').hidden"))
         page.click("#tab-components")
         self.assertIn("Labels", page.text("#tab-components"))
-        self.assertEqual(page.text("#count-components"), "3")
-        self.assertEqual(self.column("label"), ["3", "12", str(huge)])
-        triangles = page.run("layers[0].userData.parts")
+        self.assertEqual(page.text("#count-components"), "4")
+        self.assertEqual(self.column("label"), ["3", "5", "12", str(huge)])
+        triangles = page.run("data.layers[0].parts")
         whole = page.picture()
-        page.click("#row-1 .only")
+        page.click("#row-2 .only")
         page.settle()
-        self.assertEqual(page.text("#count-components"), "1 of 3")
-        self.assertEqual(page.run("layers[0].drawRange.count"), 3 * triangles[1])
+        self.assertEqual(page.text("#count-components"), "1 of 4")
+        self.assertEqual(page.run("layers[0].drawRange.count"), 3 * triangles[2])
+        self.assertEqual(page.run("sheets.geometry.drawRange.count"), 0)
         self.assertNotEqual(page.picture(), whole)
-        page.click("#row-1 .only")
+        page.click("#row-2 .only")
         page.settle()
         self.assertEqual(page.run("layers[0].drawRange.count"), 3 * sum(triangles))
+        self.assertGreater(page.run("sheets.geometry.drawRange.count"), 300)
+        self.assertEqual(page.run("""new Set(Array.from({ length: sheets.geometry.attributes.color.count },
+            (_, n) => sheets.geometry.attributes.color.getX(n))).size"""), 1)
         colors = page.run("""[...result.edges.keys()].map((id) =>
             [partName(edgePart(id)), edgeColor(id).getHexString()])""")
         self.assertEqual(len({color for _, color in colors}), len({label for label, _ in colors}))

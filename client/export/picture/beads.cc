@@ -78,17 +78,16 @@ LinearColor LinearOf(const std::array<double, 3>& rgb) {
           static_cast<float>(rgb[2] / 255)};
 }
 
-LinearColor ColorOf(double radius, const RadiusRange& range) {
-  return LinearOf(RadiusRgb(RadiusColorIndex(radius, range)));
-}
+const view::ResultDocument::Labels CurveColors::kNoLabels;
 
 CurveColors::CurveColors(const view::ResultDocument& result)
-    : labels_(result.labels.has_value() ? &*result.labels : nullptr),
+    : labels_(result.labels.has_value() ? *result.labels : kNoLabels),
+      sheets_(result.sheets),
       range_(RadiusRangeOf(result)) {
-  const size_t count = labels_ == nullptr ? size_t{kRadiusColors} : labels_->names.size();
+  const size_t count = labeled() ? labels_.names.size() : size_t{kRadiusColors};
   for (size_t n = 0; n < count; ++n) {
-    colors_.push_back(labels_ == nullptr ? RadiusRgb(static_cast<int>(n))
-                                         : LabelRgb(static_cast<uint32_t>(n)));
+    colors_.push_back(labeled() ? LabelRgb(static_cast<uint32_t>(n))
+                                : RadiusRgb(static_cast<int>(n)));
   }
 }
 

@@ -25,18 +25,21 @@ RadiusRange RadiusRangeOf(const view::ResultDocument& result);
 
 LinearColor LinearOf(const std::array<double, 3>& rgb);  // 0..255 each
 
-// The color of sheets of this radius.
-LinearColor ColorOf(double radius, const RadiusRange& range);
-
-// Curves are colored by radius, those of many labels by label. Needs: the result outlives it.
+// Curves and sheets are colored by radius, those of many labels by label. Needs: the result
+// outlives it.
 class CurveColors {
  public:
   explicit CurveColors(const view::ResultDocument& result);
 
-  // Equal numbers mean equal colors. Needs: an edge of the result.
+  // Equal numbers mean equal colors. Needs: labels[n] if the result has any.
+  int NumberOf(const std::vector<uint32_t>& labels, size_t n, double radius) const {
+    return labeled() ? static_cast<int>(labels[n]) : RadiusColorIndex(radius, range_);
+  }
   int NumberAt(const view::ResultDocument::Edge& edge, double radius) const {
-    if (labels_ == nullptr) return RadiusColorIndex(radius, range_);
-    return static_cast<int>(labels_->of_nodes[edge.source]);
+    return NumberOf(labels_.of_nodes, edge.source, radius);
+  }
+  int NumberOfSheet(size_t point) const {
+    return NumberOf(labels_.of_sheets, point, sheets_.radii[point]);
   }
   const std::array<double, 3>& Rgb(int number) const {
     return colors_[static_cast<size_t>(number)];
@@ -44,7 +47,11 @@ class CurveColors {
   const RadiusRange& range() const { return range_; }
 
  private:
-  const view::ResultDocument::Labels* labels_;
+  static const view::ResultDocument::Labels kNoLabels;
+  bool labeled() const { return &labels_ != &kNoLabels; }
+
+  const view::ResultDocument::Labels& labels_;
+  const view::ResultDocument::Sheets& sheets_;
   const RadiusRange range_;
   std::vector<std::array<double, 3>> colors_;  // 0..255 each
 };

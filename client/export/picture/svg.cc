@@ -82,7 +82,8 @@ std::vector<Bead> BeadsOf(const Scene& scene, const Projection& projection, doub
   for (size_t n = 0; n < sheets.points.size(); ++n) {
     const PanelPoint p = projection.Project(sheets.points[n]);
     beads.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.depth),
-                     static_cast<float>(radius), ColorOf(sheets.radii[n], scene.colors.range())});
+                     static_cast<float>(radius),
+                     LinearOf(scene.colors.Rgb(scene.colors.NumberOfSheet(n)))});
   }
   return beads;
 }
@@ -165,8 +166,7 @@ void AddSheets(Text& svg, const Scene& scene, const Projection& projection) {
   const view::ResultDocument::Sheets& sheets = scene.result.sheets;
   std::vector<ColoredDot> dots;
   for (size_t n = 0; n < sheets.points.size(); ++n) {
-    dots.push_back({projection.Project(sheets.points[n]),
-                    RadiusColorIndex(sheets.radii[n], scene.colors.range())});
+    dots.push_back({projection.Project(sheets.points[n]), scene.colors.NumberOfSheet(n)});
   }
   std::ranges::stable_sort(dots, {}, [](const ColoredDot& dot) { return dot.at.depth; });
   svg.Add("<g fill=\"none\" stroke-linecap=\"round\" stroke-width=\"",
@@ -174,7 +174,8 @@ void AddSheets(Text& svg, const Scene& scene, const Projection& projection) {
   for (size_t n = 0; n < dots.size(); ++n) {
     const bool starts = n == 0 || dots[n].color != dots[n - 1].color;
     if (starts)
-      svg.Add(n == 0 ? "" : "\"/>\n", "<path stroke=\"", RadiusColor(dots[n].color), "\" d=\"");
+      svg.Add(n == 0 ? "" : "\"/>\n", "<path stroke=\"", HexColor(scene.colors.Rgb(dots[n].color)),
+              "\" d=\"");
     svg.Add("M", Rounded(dots[n].at.x), ' ', Rounded(dots[n].at.y), "h0");
   }
   svg.Add(dots.empty() ? "" : "\"/>\n", "</g>\n");

@@ -66,26 +66,31 @@ async function surfaceGeometry(layer) {
 
 // Each label's glass in its color.
 function tintParts(geometry, parts) {
-  const hues = new Float32Array(geometry.attributes.position.array.length);
-  const corners = geometry.index.array.slice();
+  const partAt = new Uint32Array(geometry.attributes.position.count);
+  const hues = new Float32Array(3 * partAt.length);
   let at = 0;
   parts.forEach((triangles, part) => {
     const { r, g, b } = partColor(part, 0.55);
-    for (const end = at + 3 * triangles; at < end; ++at) hues.set([r, g, b], 3 * corners[at]);
+    for (const end = at + 3 * triangles; at < end; ++at) {
+      const corner = geometry.index.array[at];
+      hues.set([r, g, b], 3 * corner);
+      partAt[corner] = part;
+    }
   });
   geometry.setAttribute("hue", new THREE.BufferAttribute(hues, 3));
-  Object.assign(geometry.userData, { parts, corners });
+  keepCorners(geometry, partAt);
 }
-// Leaves out the glass of hidden labels.
+// For hideParts(), which leaves out the triangles of hidden labels.
+function keepCorners(geometry, partAt) {
+  Object.assign(geometry.userData, { corners: geometry.index.array.slice(), partAt });
+}
 function hideParts(geometry, hidden) {
-  const { index, userData: { parts, corners } } = geometry;
-  let from = 0, count = 0;
-  parts.forEach((triangles, part) => {
-    const own = corners.subarray(from, from += 3 * triangles);
-    if (hidden.has(part)) return;
-    index.array.set(own, count);
-    count += own.length;
-  });
+  const { index, userData: { corners, partAt } } = geometry;
+  let count = 0;
+  for (let n = 0; n < corners.length; n += 3) {
+    if (hidden.has(partAt[corners[n]])) continue;
+    for (let k = 0; k < 3; ++k) index.array[count++] = corners[n + k];
+  }
   index.needsUpdate = true;
   geometry.setDrawRange(0, count);
 }

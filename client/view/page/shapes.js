@@ -173,9 +173,12 @@ async function sheetMesh() {
   const mesh = new THREE.Mesh(geometry, new THREE.MeshPhongMaterial(
     { vertexColors: THREE.VertexColors, side: THREE.DoubleSide, flatShading: true, shininess: 30,
       specular: 0x222222 }));
+  const parts = labels && await unpack(data.sheets.labels, data.sheets.vertices);
+  if (labels) keepCorners(geometry, parts);
   mesh.paint = () => {
+    const byLabel = coloring === colorings.label;
     radii.forEach((radius, n) => {
-      const { r, g, b } = rampColor(radius, range);
+      const { r, g, b } = byLabel ? partColor(parts[n], theme.lightness) : rampColor(radius, range);
       colors.setXYZ(n, r, g, b);
     });
     colors.needsUpdate = true;

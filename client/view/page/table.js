@@ -168,7 +168,7 @@ function setHidden(parts) {
   for (const part of parts) hidden.add(part);
   order = hidden.size ? byLevel.filter((id) => !hidden.has(edgePart(id))) : byLevel;
   tubes.arrange();
-  if (labels && layers.length) hideParts(layers[0], hidden);
+  if (labels) [layers[0], sheets?.geometry].filter(Boolean).forEach((g) => hideParts(g, hidden));
   prune();
 }
 function useRow(place, alone) {

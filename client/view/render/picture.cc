@@ -85,9 +85,10 @@ Geometry GeometryOf(const ResultDocument& result, const DisplaySurface& surface,
   geometry.sheets.mesh = {exporting::VerticesOf(sheets.vertices, projection),
                           std::move(sheets.triangles)};
   geometry.sheets.normals = NormalsOfEitherSide(geometry.sheets.mesh);
-  const exporting::RadiusRange radii = exporting::RadiusRangeOf(result);
-  for (const double radius : sheets.radii) {
-    geometry.sheets.colors.push_back(exporting::ColorOf(radius, radii));
+  const exporting::CurveColors colors(result);
+  for (size_t n = 0; n < sheets.radii.size(); ++n) {
+    geometry.sheets.colors.push_back(
+        exporting::LinearOf(colors.Rgb(colors.NumberOf(sheets.labels, n, sheets.radii[n]))));
   }
   const double thickness =
       kSamplesPerPixel * std::min(options.width, options.height) / 320.0 * ThinnedBy(result, shown);
