@@ -66,6 +66,25 @@ TEST(SheetSurfaceTest, OfASurfaceSkeletonHasItsPointsAsVertices) {
   }
 }
 
+TEST(SheetSurfaceTest, NoTriangleJoinsTwoLabels) {
+  ResultDocument document = ThinnedBox(SkeletonKind::kSurface).document;
+  const size_t whole = SheetSurfaceOf(document).triangles.size();
+  ResultDocument::Labels& labels = document.labels.emplace();
+  labels.names = {3, 7};
+  labels.of_nodes.assign(document.nodes.size(), 0);
+  for (const WorldPoint& p : document.sheets.points) labels.of_sheets.push_back(p[0] > 15 ? 1 : 0);
+  const SheetSurface sheets = SheetSurfaceOf(document);
+  ASSERT_EQ(sheets.labels.size(), sheets.vertices.size());
+  EXPECT_LT(sheets.triangles.size(), whole);
+  EXPECT_GT(sheets.triangles.size(), 0.8 * static_cast<double>(whole));
+  for (const auto& [a, b, c] : sheets.triangles) {
+    EXPECT_EQ(sheets.labels[a], sheets.labels[b]);
+    EXPECT_EQ(sheets.labels[a], sheets.labels[c]);
+  }
+  EXPECT_GT(std::ranges::count(sheets.labels, 0u), 0);
+  EXPECT_GT(std::ranges::count(sheets.labels, 1u), 0);
+}
+
 TEST(SheetSurfaceTest, OfACurveSkeletonIsEmpty) {
   EXPECT_TRUE(SheetSurfaceOf(ThinnedBox(SkeletonKind::kCurve).document).vertices.empty());
 }
