@@ -96,17 +96,13 @@ function(bccskel_library name)
   set_property(GLOBAL APPEND PROPERTY BCCSKEL_INSTALLED_TARGETS bccskel_${name})
 endfunction()
 
-# What every test program is: its sources, our defaults, GoogleTest. Sanitizers judge what is tested;
-# the code of tests itself compiles there in two thirds of the time when it is not optimized.
+# What every test program is: its sources, our defaults, GoogleTest.
 function(bccskel_test_program name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
   bccskel_target_defaults(${name})
   bccskel_optimize_less(${name})
-  if(BCCSKEL_SANITIZE)
-    target_compile_options(${name} PRIVATE -O0)
-  endif()
   target_link_libraries(${name} PRIVATE ${ARG_LIBS} GTest::gmock GTest::gtest)
 endfunction()
 
