@@ -14,6 +14,7 @@
 #include "client/cli/file_writers.h"
 #include "client/cli/image_options.h"
 #include "client/cli/progress_bar.h"
+#include "client/cli/summaries.h"
 #include "client/export/labeled_graph.h"
 #include "core/labels/skeletonize_labels.h"
 
