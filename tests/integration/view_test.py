@@ -16,6 +16,7 @@ import view_samples
 def shared_browser():
     """Starting one, and the first page of each, take as long as four pages more."""
     shared = browser.Browser().__enter__()
+    unittest.addModuleCleanup(shared_browser.cache_clear)
     unittest.addModuleCleanup(shared.__exit__, None, None, None)
     return shared
 
