@@ -22,11 +22,8 @@ class Stringer {
       : projection_(projection),
         thickness_(thickness),
         colors_(result),
-        length_(projection.scale() * LengthOf(result)),
-        step_(length_ > kMany ? std::max(1.0, thickness) : 1) {
-    size_t most = result.nodes.size() + static_cast<size_t>(length_ / step_);
-    for (const view::ResultDocument::Edge& edge : result.edges) most += edge.points.size();
-    beads_.reserve(most);
+        step_(projection.scale() * LengthOf(result) > kMany ? std::max(1.0, thickness) : 1) {
+    beads_.reserve(MostBeads(result));
   }
 
   void AddEdge(const view::ResultDocument::Edge& edge) {
@@ -63,10 +60,23 @@ class Stringer {
     return length;
   }
 
+  // By the points: documents may state any length.
+  size_t MostBeads(const view::ResultDocument& result) const {
+    size_t most = result.nodes.size();
+    double length = 0;
+    for (const view::ResultDocument::Edge& edge : result.edges) {
+      most += edge.points.size();
+      for (size_t n = 1; n < edge.points.size(); ++n) {
+        const WorldPoint &a = edge.points[n - 1], &b = edge.points[n];
+        length += std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
+      }
+    }
+    return most + static_cast<size_t>(projection_.scale() * length / step_);
+  }
+
   const Projection& projection_;
   const double thickness_;
   const CurveColors colors_;
-  const double length_;  // of all curves, in units of the projection
   const double step_;
   std::vector<Bead> beads_;
 };

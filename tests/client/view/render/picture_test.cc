@@ -62,6 +62,16 @@ TEST(PictureTest, CurvesThatAreLongTogetherAreDrawnThinner) {
   EXPECT_EQ(with_length(1000), with_length(10000));  // there is a limit
 }
 
+TEST(PictureTest, LengthsThatAFileStatesWronglyDoNotMatter) {
+  const exporting::Sample sample = exporting::SampleOf(Shape::kTorus);
+  const auto surface = *MakeDisplaySurface(sample.object, 10000, {});
+  for (const double length : {-1e18, 1e18}) {
+    ResultDocument result = *ParseResultDocument(exporting::JsonText(sample.result));
+    for (ResultDocument::Edge& edge : result.edges) edge.length = length;
+    EXPECT_TRUE(RenderPng(result, surface, Small(), {}).ok());
+  }
+}
+
 TEST(PictureTest, ATitleThatIsNotUtf8IsLeftOut) {
   const exporting::Sample sample = exporting::SampleOf(Shape::kTorus);
   PictureOptions without = Small(), broken = Small();
