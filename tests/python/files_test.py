@@ -76,6 +76,11 @@ class FilesTest(harness.TestCase):
             bccskel.save_labels(self.path(name), skeletons)
             picture = (self.folder / name.format(label=300)).read_text(encoding="utf-8")
             self.assertIn(f">{title}</text>", picture)
+        skeletons[3].save(self.path("read.json"))
+        read = {3: bccskel.read(self.path("read.json"))}
+        for name in ("read.html", "read-{label}.png", "read.json"):
+            with self.assertRaisesRegex(ValueError, "a result that was read"):
+                bccskel.save_labels(self.path(name), read)
         with self.assertRaises(OSError):
             bccskel.save_labels(self.path("missing/{label}.swc"), skeletons)
 

@@ -393,7 +393,8 @@ def save_labels(path: Union[str, os.PathLike], skeletons: Mapping[int, Skeleton]
     .html, .svg, .png or .mrk.json, or a .precomputed folder, as `bccskel labels` does. With `{label}`
     in its path one file per label, in any format; folders that `{label}` names are made.
 
-    Raises ValueError for another ending, OSError where it cannot be written.
+    Raises ValueError for another ending, OSError where it cannot be written, NotImplementedError for
+    pages and pictures of labels that a server has computed: they also show the objects.
 
     >>> import os, tempfile
     >>> import numpy as np, bccskel

@@ -326,6 +326,10 @@ absl::StatusOr<std::string> WriteLabels(const std::string& path, const LabelList
   exporting::LabeledSkeletons all(
       {path}, labels.empty() ? std::nullopt : labels.front().second->root, world);
   for (const auto& [label, outcome] : labels) {
+    if (outcome->read.has_value()) {
+      BCCSKEL_ASSIGN_OR_RETURN(const SkeletonFormat format, exporting::SkeletonFormatOf(path));
+      BCCSKEL_RETURN_IF_ERROR(CheckHeldByRead(format));
+    }
     const Outcome& first = *labels.front().second;
     if (outcome->result.graph.placement != first.result.graph.placement) {
       return absl::InvalidArgumentError("the skeletons belong to images with different placements");
