@@ -104,12 +104,13 @@ std::array<uint32_t, kRadiusColors> RadiusColors() {
 
 // Of each node, counted from 0; none if the graph is of one object.
 std::vector<uint32_t> LabelColors(const GraphLabels& labels) {
+  std::vector<uint32_t> of_names;
+  for (uint32_t place = 0; place < labels.names.size(); ++place) {
+    of_names.push_back(PackedColor(LabelRgb(place)));
+  }
   std::vector<uint32_t> colors;
-  uint32_t place = 0;
-  for (size_t n = 0; n < labels.of_nodes.size(); ++n) {
-    const bool same = n > 0 && labels.of_nodes[n] == labels.of_nodes[n - 1];
-    if (n > 0 && !same) ++place;
-    colors.push_back(same ? colors.back() : PackedColor(LabelRgb(place)));
+  for (const uint32_t place : PlacesOf(labels.of_nodes, labels.names)) {
+    colors.push_back(of_names[place]);
   }
   return colors;
 }

@@ -15,10 +15,24 @@ namespace bccskel::exporting {
 
 // The label of each row of a graph. Empty for a graph of one object.
 struct GraphLabels {
+  std::vector<uint64_t> names = {};  // each label once, also those whose skeletons are empty
   std::vector<uint64_t> of_nodes;
   std::vector<uint64_t> of_edges;
   std::vector<uint64_t> of_sheets;  // by point
 };
+
+// For each label its place among the names. Needs: both are in the same order.
+inline std::vector<uint32_t> PlacesOf(const std::vector<uint64_t>& labels,
+                                      const std::vector<uint64_t>& names) {
+  std::vector<uint32_t> places;
+  places.reserve(labels.size());
+  uint32_t place = 0;
+  for (const uint64_t label : labels) {
+    while (names[place] != label) ++place;
+    places.push_back(place);
+  }
+  return places;
+}
 
 // "branch 7", or "label 3 branch 7" if there are labels; counted from 0.
 inline std::string BranchName(const GraphLabels& labels, size_t edge) {

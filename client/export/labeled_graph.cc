@@ -1,5 +1,6 @@
 #include "client/export/labeled_graph.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "client/export/atomic_file.h"
@@ -55,7 +56,7 @@ LabeledSkeletons::LabeledSkeletons(const std::vector<std::string>& paths,
 
 void LabeledSkeletons::Add(uint64_t label, uint64_t voxels, const SkeletonizeResult& result,
                            const std::stop_token& stop) {
-  if (voxels_.empty()) {
+  if (sizes_.empty()) {
     facts_ = MethodFactsOf(result, world_);
     // The effects of preparation differ from label to label.
     std::erase_if(facts_, [](const auto& fact) { return fact.first == "prepared"; });
@@ -63,7 +64,8 @@ void LabeledSkeletons::Add(uint64_t label, uint64_t voxels, const SkeletonizeRes
     all_.method = result.method;
     all_.algorithm_version = result.algorithm_version;
   }
-  voxels_.push_back(voxels);
+  sizes_.push_back(std::max(voxels, result.object_points));
+  labels_.names.push_back(label);
   AddTo(all_.graph, result.graph);
   AddTo(all_.certificate, result.certificate);
   all_.object_points += result.object_points;
@@ -82,7 +84,7 @@ void LabeledSkeletons::Add(uint64_t label, uint64_t voxels, const SkeletonizeRes
 absl::Status LabeledSkeletons::AddObjects(const view::ObjectOfLabel& object,
                                           const exec::Context& context) {
   BCCSKEL_ASSIGN_OR_RETURN(surfaces_,
-                           view::SurfacesOfLabels(voxels_, object, kMostLabelTriangles, context));
+                           view::SurfacesOfLabels(sizes_, object, kMostLabelTriangles, context));
   BCCSKEL_ASSIGN_OR_RETURN(all_.sha256, SkeletonDigest(all_.graph, context));
   return absl::OkStatus();
 }
@@ -114,16 +116,14 @@ absl::StatusOr<std::string> WriteLabeledFile(const std::string& path,
     return WriteGraphFile(
         path, {.graph = skeletons.all().graph, .context = context, .world = skeletons.world()});
   }
-  return WriteSkeletonFile(
-      path, {.result = skeletons.all(),
-             .object = skeletons.all().thin,
-             .title = picture.title,
-             .context = picture.context,
-             .root = skeletons.root(),
-             .world = skeletons.world(),
-             .draw = picture.draw,
-             .labels = SubjectLabels{context.labels.of_nodes, context.labels.of_sheets,
-                                     skeletons.surfaces()}});
+  return WriteSkeletonFile(path, {.result = skeletons.all(),
+                                  .object = skeletons.all().thin,
+                                  .title = picture.title,
+                                  .context = picture.context,
+                                  .root = skeletons.root(),
+                                  .world = skeletons.world(),
+                                  .draw = picture.draw,
+                                  .labels = SubjectLabels{context.labels, skeletons.surfaces()}});
 }
 
 }  // namespace bccskel::exporting

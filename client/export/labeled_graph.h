@@ -55,7 +55,7 @@ class LabeledSkeletons {
   bool keeps_json_ = false;
   bool shows_objects_ = false;
   GraphLabels labels_;
-  std::vector<uint64_t> voxels_;  // of each label
+  std::vector<uint64_t> sizes_;  // of each label: points, or voxels if preparation left none
   view::DisplaySurface surfaces_;
   MethodFacts facts_;
   std::string json_;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "client/export/graph_context.h"
 #include "client/export/point_forest.h"
 #include "client/export/world.h"
 #include "client/view/display_surface.h"
@@ -23,9 +24,8 @@ struct Subject;
 
 // Of a result that consists of the skeletons of many labels.
 struct SubjectLabels {
-  const std::vector<uint64_t>& of_nodes;   // one per node, ascending
-  const std::vector<uint64_t>& of_sheets;  // one per point of the sheets
-  const view::DisplaySurface& surfaces;    // of their objects, one label after the other
+  const GraphLabels& of_rows;
+  const view::DisplaySurface& surfaces;  // of the objects of all its names, in their order
 };
 
 // Makes a PNG file of a subject.

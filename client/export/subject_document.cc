@@ -1,6 +1,5 @@
 #include "client/export/subject_document.h"
 
-#include <algorithm>
 #include <optional>
 #include <string>
 
@@ -69,16 +68,8 @@ ResultDocument::Edge EdgeOf(const SkeletonGraph& graph, const SkeletonEdge& from
 }
 
 ResultDocument::Labels LabelsOf(const SubjectLabels& subject) {
-  ResultDocument::Labels labels;
-  for (const uint64_t label : subject.of_nodes) {
-    if (labels.names.empty() || labels.names.back() != label) labels.names.push_back(label);
-    labels.of_nodes.push_back(static_cast<uint32_t>(labels.names.size() - 1));
-  }
-  for (const uint64_t label : subject.of_sheets) {  // each has nodes as well
-    const auto name = std::ranges::lower_bound(labels.names, label);
-    labels.of_sheets.push_back(static_cast<uint32_t>(name - labels.names.begin()));
-  }
-  return labels;
+  const GraphLabels& rows = subject.of_rows;
+  return {rows.names, PlacesOf(rows.of_nodes, rows.names), PlacesOf(rows.of_sheets, rows.names)};
 }
 
 }  // namespace

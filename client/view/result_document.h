@@ -59,7 +59,7 @@ struct ResultDocument : ResultFacts {
   };
   // Of the skeletons of many labels side by side.
   struct Labels {
-    std::vector<uint64_t> names;      // each label once, ascending
+    std::vector<uint64_t> names;      // each label once, ascending, also without nodes
     std::vector<uint32_t> of_nodes;   // index into names, one per node
     std::vector<uint32_t> of_sheets;  // the same per point of the sheets
   };

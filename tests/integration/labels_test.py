@@ -65,6 +65,10 @@ class LabelsTest(harness.TestCase):
         self.assertIn(">each label in its own color</text>", svg)
         lines = re.findall(r'<path stroke="(#[0-9a-f]{6})" d="M', svg)
         self.assertEqual(len(set(lines)), 3)  # labels 1 and 8 are points
+        self.labels("-o", self.path("b.svg"), "--min-component", "30")  # leaves nothing of label 1
+        svg = (self.folder / "b.svg").read_text(encoding="utf-8")
+        self.assertIn(">5 labels: ", svg)
+        self.assertEqual(set(re.findall(r'<path stroke="(#[0-9a-f]{6})" d="M', svg)), set(lines))
         first = (self.folder / "a.html").read_bytes()
         self.labels("-o", self.path("a.html"), "--threads", "3")
         self.assertEqual((self.folder / "a.html").read_bytes(), first)

@@ -250,6 +250,27 @@ class TableTest(PageTestCase):
         for name in ("label", "branch_id", "node_id_src", "node_id_dst", "branch_type"):
             self.assertEqual([row[name] for row in mine], [row[name] for row in theirs])
 
+    def test_a_label_without_a_skeleton_is_listed_and_hidden(self):
+        image = numpy.zeros((8, 8, 60), "u1")
+        image[2:6, 2:6, 2:20] = 3
+        image[4, 4, 28] = 5
+        image[2:6, 2:6, 36:58] = 9
+        numpy.save(self.path("labels.npy"), image)
+        self.succeed("labels", self.path("labels.npy"), "-o", self.path("s.html"),
+                     "--min-component", "30")
+        page = self.open("#")
+        self.assertIn("3 labels", page.text("#points"))
+        self.assertTrue(page.run("document.querySelector('#keys .of-object').hidden"))
+        page.click("#tab-components")
+        self.assertEqual(self.column("label"), ["3", "5", "9"])
+        self.assertEqual(self.column("branches"), ["1", "0", "1"])
+        self.assertEqual(self.column("max")[1], "")
+        triangles = page.run("data.layers[0].parts")
+        self.assertGreater(min(triangles), 0)
+        page.click("#row-2 .only")
+        page.settle()
+        self.assertEqual(page.run("layers[0].drawRange.count"), 3 * triangles[2])
+
     def test_the_table_joins_branches_as_pruning_does(self):
         page = self.open_sample(view_samples.forest(2))
         page.click("#dock-toggle")

@@ -69,15 +69,16 @@ function prunedTo(step) {
                          branchOf: (id) => branchOf.get(id) ?? id });
 }
 
-// Totals of every part, and of the visible graph.
+// Totals of every part, also of labels whose skeletons are empty, and of the visible graph.
 function withoutHidden(graph) {
   const parts = [];
   const totalsOf = (id) => parts[id] ??=
-    { id, label: Number(partName(id)), branches: 0, nodes: 0, length: 0, max: -Infinity };
+    { id, label: Number(partName(id)), branches: 0, nodes: 0, length: 0 };
+  labels?.names.forEach((_, label) => totalsOf(label));
   for (const n of graph.nodes) {
     const totals = totalsOf(partAt(n));
     ++totals.nodes;
-    totals.max = Math.max(totals.max, nodeAt[n].radius);
+    totals.max = Math.max(totals.max ?? 0, nodeAt[n].radius);
   }
   for (const branch of graph.branches.values()) {
     const totals = totalsOf(branch.part);

@@ -220,7 +220,10 @@ function showPanels() {
     head.textContent = inUnit(head.textContent);
   }
   for (const part of document.querySelectorAll(".of-object")) part.hidden = !data.layers.length;
-  if (labels) element("peel").closest("section").hidden = true;
+  if (labels) {
+    for (const part of [element("peel").closest("section"),
+                        document.querySelector("#keys .of-object")]) part.hidden = true;
+  }
   element("pruning").hidden = levels.length === 0;
   element("prune").max = levels.length;
   element("save-1x").disabled = element("save-2x").disabled = renderer === null;
