@@ -41,7 +41,7 @@ class PostgresProcess:
 
     def control(self, *what):
         self.run("pg_ctl", "-w", "-D", self.folder / "data", "-l", self.folder / "log",
-                 "-o", f"-k {self.folder} -c listen_addresses=''", *what)
+                 "-o", f"-k {self.folder} -c listen_addresses='' -c fsync=off", *what)
 
     def stop(self):
         self.control("stop", "-m", "immediate")
