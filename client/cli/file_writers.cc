@@ -7,7 +7,6 @@
 namespace bccskel::cli {
 namespace {
 
-constexpr size_t kMostWriters = 16;
 constexpr size_t kMostWaiting = 64;
 
 absl::Status StatusOf(const FileWriters::Task& task) {
@@ -26,7 +25,7 @@ absl::Status FileWriters::Add(Task task) {
   std::unique_lock lock(mutex_);
   room_.wait(lock, [this] { return tasks_.size() < kMostWaiting; });
   tasks_.push_back(std::move(task));
-  if (writers_.size() < kMostWriters) writers_.emplace_back([this] { Write(); });
+  if (writers_.size() < most_writers_) writers_.emplace_back([this] { Write(); });
   work_.notify_one();
   return status_;
 }

@@ -2,6 +2,7 @@
 #define BCCSKEL_CLIENT_CLI_FILE_WRITERS_H_
 
 #include <condition_variable>
+#include <cstddef>
 #include <deque>
 #include <functional>
 #include <mutex>
@@ -19,7 +20,10 @@ class FileWriters {
  public:
   using Task = std::function<absl::Status()>;
 
-  FileWriters() = default;
+  static constexpr size_t kMostWriters = 16;
+
+  // Fewer threads for files that take longer to compose than to write.
+  explicit FileWriters(size_t most_writers = kMostWriters) : most_writers_(most_writers) {}
   ~FileWriters();  // as Finish()
   FileWriters(const FileWriters&) = delete;
   FileWriters& operator=(const FileWriters&) = delete;
@@ -33,6 +37,7 @@ class FileWriters {
  private:
   void Write();
 
+  const size_t most_writers_;
   std::mutex mutex_;
   std::condition_variable room_;
   std::condition_variable work_;

@@ -30,7 +30,7 @@ bool ShowsObject(const std::string& path) {
 
 }  // namespace
 
-LabelFiles::LabelFiles(const LabelsArguments& arguments, const CollectedLabels& labels,
+LabelFiles::LabelFiles(const LabelsArguments& arguments, const CollectedLabels& labels, int threads,
                        std::stop_token stop)
     : labels_(labels.objects),
       mask_(arguments.image.mask),
@@ -41,7 +41,8 @@ LabelFiles::LabelFiles(const LabelsArguments& arguments, const CollectedLabels& 
       paths_of_each_(PathsOf(arguments.outputs, true)),
       paths_of_all_(PathsOf(arguments.outputs, false)),
       each_shows_object_(std::ranges::any_of(paths_of_each_, ShowsObject)),
-      all_(paths_of_all_, root_, world_) {
+      all_(paths_of_all_, root_, world_),
+      writers_(each_shows_object_ ? static_cast<size_t>(threads) : FileWriters::kMostWriters) {
   context_.stop = std::move(stop);
 }
 

@@ -23,8 +23,10 @@ namespace bccskel::cli {
 // The output files of the skeletons of many labels.
 class LabelFiles {
  public:
+  // `threads`: of this job, which draw the pictures of single labels.
   // Needs: exporting::CheckLabelOutput() is OK for all outputs; the labels outlive it.
-  LabelFiles(const LabelsArguments& arguments, const CollectedLabels& labels, std::stop_token stop);
+  LabelFiles(const LabelsArguments& arguments, const CollectedLabels& labels, int threads,
+             std::stop_token stop);
 
   // Collects data for the files of all labels and queues the label's own files.
   // Errors: as WriteSkeletonFile(), also for an earlier label.

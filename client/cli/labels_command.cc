@@ -283,7 +283,7 @@ ExitCode Run(const LabelsArguments& arguments, const std::stop_token& stop) {
   bar.Begin("reading", arguments.input);
   const absl::StatusOr<CollectedLabels> labels = Load(arguments, team.context());
   if (!labels.ok()) return Fail(labels.status());
-  LabelFiles files(arguments, *labels, stop);
+  LabelFiles files(arguments, *labels, team.context().threads(), stop);
   std::vector<LabelFigures> figures;
   absl::Status writing, computed;
   const auto on_label = bar.LabelsCallback("skeletonizing the first labels");

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
+#include <thread>
 
 namespace bccskel::cli {
 namespace {
@@ -30,6 +32,24 @@ TEST(FileWriters, RunSeveralTasksAtATime) {
                     .ok());
   }
   EXPECT_TRUE(writers.Finish().ok());
+}
+
+TEST(FileWriters, RunNoMoreTasksAtATimeThanWanted) {
+  std::atomic<int> running = 0, most = 0;
+  FileWriters writers(2);
+  for (int n = 0; n < 20; ++n) {
+    const absl::Status added = writers.Add([&] {
+      const int now = ++running;
+      for (int before = most; now > before && !most.compare_exchange_weak(before, now);) {
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      --running;
+      return absl::OkStatus();
+    });
+    EXPECT_TRUE(added.ok());
+  }
+  EXPECT_TRUE(writers.Finish().ok());
+  EXPECT_LE(most, 2);
 }
 
 TEST(FileWriters, ReportTheFirstErrorAndDropWhatFollows) {
