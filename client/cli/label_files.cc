@@ -23,11 +23,6 @@ std::vector<std::string> PathsOf(const std::vector<std::string>& paths, bool for
   return chosen;
 }
 
-bool ShowsObject(const std::string& path) {
-  const auto format = exporting::SkeletonFormatOf(path);
-  return format.ok() && exporting::ShowsObject(*format);
-}
-
 }  // namespace
 
 LabelFiles::LabelFiles(const LabelsArguments& arguments, const CollectedLabels& labels, int threads,
@@ -40,7 +35,8 @@ LabelFiles::LabelFiles(const LabelsArguments& arguments, const CollectedLabels& 
       swc_(arguments.swc),
       paths_of_each_(PathsOf(arguments.outputs, true)),
       paths_of_all_(PathsOf(arguments.outputs, false)),
-      each_shows_object_(std::ranges::any_of(paths_of_each_, ShowsObject)),
+      each_shows_object_(std::ranges::any_of(
+          paths_of_each_, [](const std::string& path) { return exporting::ShowsObject(path); })),
       all_(paths_of_all_, root_, world_),
       writers_(each_shows_object_ ? static_cast<size_t>(threads) : FileWriters::kMostWriters) {
   context_.stop = std::move(stop);

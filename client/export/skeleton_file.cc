@@ -172,6 +172,11 @@ bool ShowsObject(SkeletonFormat format) {
          format == SkeletonFormat::kHtml;
 }
 
+bool ShowsObject(const std::string& path) {
+  const absl::StatusOr<SkeletonFormat> format = SkeletonFormatOf(path);
+  return format.ok() && ShowsObject(*format);
+}
+
 std::string SkeletonFormatEndings() {
   std::string endings;
   for (const Ending& ending : kEndings) {

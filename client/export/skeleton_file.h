@@ -32,6 +32,7 @@ absl::StatusOr<SkeletonFormat> SkeletonFormatOf(const std::string& path);
 
 // Whether files of this format also show the object.
 bool ShowsObject(SkeletonFormat format);
+bool ShowsObject(const std::string& path);  // false for an unknown ending
 
 // The endings, for messages: ".swc, .vtp, ...".
 std::string SkeletonFormatEndings();

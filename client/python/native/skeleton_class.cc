@@ -304,7 +304,8 @@ using LabelList = std::vector<std::pair<uint64_t, std::shared_ptr<Outcome>>>;
 
 absl::Status WriteEachLabel(const std::string& path, const LabelList& labels,
                             const exporting::World& world, const std::stop_token& stop) {
-  cli::FileWriters writers;
+  // Each picture is drawn by all threads.
+  cli::FileWriters writers(exporting::ShowsObject(path) ? 1 : cli::FileWriters::kMostWriters);
   for (const auto& [label, outcome] : labels) {
     const auto write = [&, label = label, outcome = outcome]() -> absl::Status {
       BCCSKEL_ASSIGN_OR_RETURN(const std::string own, exporting::MakePathFor(path, label));
