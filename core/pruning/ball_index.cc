@@ -23,41 +23,41 @@ size_t LevelOf(float radius) {
 
 BallIndex::BallIndex(const ThinSet& set, const exec::Context& context) : scale_(set.scale()) {
   StopPoll poll(context);
-  std::vector<std::pair<uint32_t, Ball>> found;  // with the number of its cube
-  set.ForEachPoint([&](LatticePoint p) {
+  auto shared = std::make_shared<Cubes>();
+  auto& [balls, cubes, levels] = *shared;
+  std::vector<uint32_t> cube_of;  // of each point, in the order of the set
+  cube_of.reserve(set.size());
+  set.ForEachBall([&](LatticePoint p, float radius) {
     if (poll.Stopped()) return;
-    const float radius = set.RadiusOf(p);
     const size_t level = std::min(LevelOf(radius), kLevels - 1);
     const LatticePoint at = CubeOf(PlaceOf(p, scale_), level);
-    const uint32_t* known = levels_[level].Find(at);
-    const auto cube = known != nullptr ? *known : static_cast<uint32_t>(cubes_.size());
+    const uint32_t* known = levels[level].Find(at);
+    const auto cube = known != nullptr ? *known : static_cast<uint32_t>(cubes.size());
     if (known == nullptr) {
-      levels_[level].Set(at, cube);
-      cubes_.emplace_back();
+      levels[level].Set(at, cube);
+      cubes.emplace_back();
     }
-    ++cubes_[cube].end;  // how many there are, for now
-    found.push_back({cube, {p, radius}});
+    ++cubes[cube].end;  // how many there are, for now
+    cube_of.push_back(cube);
   });
   uint32_t first = 0;
-  for (Cube& cube : cubes_) {
+  for (Cube& cube : cubes) {
     const uint32_t count = cube.end;
     cube = {first, first};
     first += count;
   }
-  balls_.resize(found.size());
-  ball_at_.Reserve(found.size());
-  for (const auto& [cube, ball] : found) {
-    if (poll.Stopped()) return;
-    ball_at_.Set(ball.center, cubes_[cube].end);
-    balls_[cubes_[cube].end++] = ball;
-  }
+  balls.resize(cube_of.size());
+  size_t n = 0;
+  set.ForEachBall([&](LatticePoint p, float radius) {
+    if (n < cube_of.size()) balls[cubes[cube_of[n++]].end++] = {p, radius};
+  });
+  shared_ = std::move(shared);
 }
 
 void BallIndex::SetOwn(std::span<const LatticePoint> own) {
-  ++branch_;
-  for (LatticePoint p : own) {
-    if (const uint32_t* ball = ball_at_.Find(p); ball != nullptr) balls_[*ball].branch = branch_;
-  }
+  own_ = {};
+  own_.Reserve(own.size());
+  for (LatticePoint p : own) own_.Set(p, 0);
 }
 
 // Where a ball covers p, at least a tenth of its radius remains to the background.
@@ -68,12 +68,12 @@ bool BallIndex::IsCovered(LatticePoint p, double radius, double distance_to_junc
   const auto covers = [&](const Ball& ball) {
     const Coordinates between = Sum(PlaceOf(ball.center, scale_), -1, place);
     const double reach = kInside * ball.radius;
-    return Dot(between, between) < reach * reach && ball.branch != branch_ &&
-           2 * ball.radius < distance_to_junction && set.Contains(ball.center);
+    return Dot(between, between) < reach * reach && 2 * ball.radius < distance_to_junction &&
+           own_.Find(ball.center) == nullptr && set.Contains(ball.center);
   };
   double width = 1;  // radii of a level are at least half of this, or 0
   for (size_t level = 0; level < kLevels && width / 2 <= largest; ++level, width *= 2) {
-    const PointTable<uint32_t>& cubes = levels_[level];
+    const PointTable<uint32_t>& cubes = shared_->levels[level];
     if (cubes.empty()) continue;
     const double reach = kInside * width;
     const LatticePoint low = CubeOf(Sum(place, -reach, kAlongAll), level);
@@ -82,9 +82,9 @@ bool BallIndex::IsCovered(LatticePoint p, double radius, double distance_to_junc
       for (int32_t y = low.y; y <= high.y; ++y) {
         for (int32_t x = low.x; x <= high.x; ++x) {
           const uint32_t* number = cubes.Find({x, y, z});
-          const Cube cube = number != nullptr ? cubes_[*number] : Cube();
+          const Cube cube = number != nullptr ? shared_->cubes[*number] : Cube();
           for (uint32_t n = cube.first; n < cube.end; ++n) {
-            if (covers(balls_[n])) return true;
+            if (covers(shared_->balls[n])) return true;
           }
         }
       }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -19,7 +20,7 @@ namespace bccskel {
 //        stored in cubes twice as wide as that power, so the center of a ball that contains a point
 //        lies in one of 8 cubes.
 // Cost:  a query visits the points of a few cubes per power of two.
-// Threads: one thread per instance.
+// Threads: one thread per instance. Copies share what they index, so each worker has one.
 class BallIndex {
  public:
   // Indexes the points that `set` contains now, with their radii. Points may be removed from the
@@ -41,7 +42,6 @@ class BallIndex {
   struct Ball {
     LatticePoint center;
     float radius;
-    uint32_t branch = 0;  // the last branch selected by SetOwn() that it belongs to
   };
   struct Cube {
     uint32_t first = 0;  // index of its first ball
@@ -50,12 +50,15 @@ class BallIndex {
 
   static LatticePoint CubeOf(const Coordinates& place, size_t level);
 
+  struct Cubes {
+    std::vector<Ball> balls;  // cube by cube
+    std::vector<Cube> cubes;
+    std::array<PointTable<uint32_t>, kLevels> levels;  // index of each cube
+  };
+
   AxisScale scale_;
-  std::vector<Ball> balls_;  // cube by cube
-  std::vector<Cube> cubes_;
-  std::array<PointTable<uint32_t>, kLevels> levels_;  // index of each cube
-  PointTable<uint32_t> ball_at_;
-  uint32_t branch_ = 1;
+  std::shared_ptr<const Cubes> shared_;
+  PointTable<char> own_;  // the points of the branch selected by SetOwn()
 };
 
 }  // namespace bccskel

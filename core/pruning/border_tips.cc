@@ -34,6 +34,8 @@ constexpr int kMostJunctions = 16;                  // along a trunk, which may 
 constexpr size_t kArmPoints = 8;                    // from the junction to where arms are compared
 constexpr double kMostCurve = 8, kLeastCurve = 64;  // of a curve, per radius and in any case
 constexpr int kRounds = 3;
+constexpr double kLongestStep = 2;  // between neighbors, in the longest edge
+constexpr double kToLattice = 1.2;  // from a place to the nearest lattice point, at most, likewise
 constexpr size_t kRays = 2 * kTurns.size();
 
 Coordinates RayIn(const std::array<Coordinates, 2>& plane, size_t n) {
@@ -171,12 +173,16 @@ bool BorderTips::TouchesAcross(const Face& face, std::span<const LatticePoint> p
   const auto plane = Across(Unit(set.Way(path[back], path[n])));
   const Coordinates middle = PlaceOf(path[n], scale_);
   const double out = OutFrom(middle, face) - kTouchMargin;
+  // The ball around the point lies in the object.
+  const double start = std::floor(std::max(radius - kToLattice * std::ranges::max(scale_), 0.0));
   for (size_t ray = 0; ray < kRays; ++ray) {
     const Coordinates way = RayIn(plane, ray);
     const double toward = face.side * way[face.axis];
     if (toward <= 0 || out > (reach + 1) * toward) continue;  // it does not get there
     const double length = out / toward - 1;
-    if (sections_.WayOut(middle, way, 0, std::max(std::ceil(length), 0.0)) >= length) return true;
+    if (sections_.WayOut(middle, way, start, std::max(std::ceil(length), 0.0)) >= length) {
+      return true;
+    }
   }
   return false;
 }
@@ -281,9 +287,12 @@ std::vector<BorderTips::Crossing> BorderTips::Crossings(const ThinSet& set) cons
   const auto on_surface = [&](LatticePoint p) {
     return std::popcount(set.NeighborsOf(p)) >= kOfSurface;
   };
+  // Along a step, the way to the face and the radius change at most by its length.
+  const double most_change = 2 * kLongestStep * std::ranges::max(scale_) + kTouchMargin;
   std::vector<Crossing> crossings;
-  set.ForEachPoint([&](LatticePoint p) {
-    for (const Face& face : FacesNear(p, kNearRadii * set.RadiusOf(p) + kTouchMargin)) {
+  set.ForEachBall([&](LatticePoint p, float radius) {
+    const double near = std::min<double>(kNearRadii * radius, radius + most_change) + kTouchMargin;
+    for (const Face& face : FacesNear(p, near)) {
       if (Touches(p, face, set)) continue;
       ForEachNeighbor(p, set.NeighborsOf(p), [&](LatticePoint q) {
         // Not within a surface, which has very many.
@@ -298,10 +307,27 @@ std::vector<BorderTips::Crossing> BorderTips::Crossings(const ThinSet& set) cons
   return crossings;
 }
 
-void BorderTips::AddBranches(ExactRadius& radius, ThinSet& set, PointsByAxis& added) {
+// Hardly any crossing gets a branch, so each is first tried as if no other did.
+void BorderTips::AddBranches(ExactRadius& radius, ThinSet& set, PointsByAxis& added,
+                             const exec::Context& context) {
+  constexpr size_t kAtOnce = 4;
   const auto may_add = [&](LatticePoint p) { return bricks_.Contains(p); };
   std::vector<LatticePoint> ends = set.Ends();
-  for (const Crossing& crossing : Crossings(set)) {
+  const std::vector<Crossing> crossings = Crossings(set);
+  std::vector<char> may_get_one(crossings.size());
+  exec::Portions portions(crossings.size(), kAtOnce);
+  context.Offer(context.WorkersFor(crossings.size(), kWork), [&](int) {
+    BorderTips own = *this;
+    for (exec::Share mine = portions.Take(); mine.begin < mine.end; mine = portions.Take()) {
+      if (context.ShouldStop()) return;
+      for (size_t n = mine.begin; n < mine.end; ++n) {
+        may_get_one[n] = own.BranchFrom(crossings[n], ends, set).has_value() ? 1 : 0;
+      }
+    }
+  });
+  for (size_t n = 0; n < crossings.size(); ++n) {
+    if (may_get_one[n] == 0) continue;
+    const Crossing& crossing = crossings[n];
     const std::optional<NewBranch> branch = BranchFrom(crossing, ends, set);
     if (!branch.has_value()) continue;
     std::vector<LatticePoint> path = {branch->from};

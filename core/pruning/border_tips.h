@@ -8,6 +8,7 @@
 
 #include "core/distance/exact_radius.h"
 #include "core/distance/places.h"
+#include "core/exec/context.h"
 #include "core/lattice/lattice_point.h"
 #include "core/pruning/cross_section.h"
 #include "core/pruning/thin_set.h"
@@ -21,6 +22,8 @@ namespace bccskel {
 // Threads: one thread per instance.
 class BorderTips {
  public:
+  static constexpr size_t kWork = 64;  // of a place near the border, for Context::WorkersFor()
+
   struct Way {
     size_t axis = 0;  // across which the border cuts the limb
     size_t from = 0;  // position in the path of the point before the first place
@@ -43,8 +46,10 @@ class BorderTips {
   // Adds branches for limbs that end at the border, but whose curves turn into thinner limbs that
   // leave them shortly before: from the point of the set that is nearest to the middle of the
   // cut. Appends the new points to `added`. Each touches the set only at the point before it, so
-  // the topology stays. `radius` belongs to the object.
-  void AddBranches(ExactRadius& radius, ThinSet& set, PointsByAxis& added);
+  // the topology stays. `radius` belongs to the object. Adds none or some if the context requests a
+  // stop.
+  void AddBranches(ExactRadius& radius, ThinSet& set, PointsByAxis& added,
+                   const exec::Context& context);
 
  private:
   struct NewBranch {

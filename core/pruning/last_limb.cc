@@ -36,7 +36,7 @@ bool LastLimb::SticksOut(const ThinSet& set, LatticePoint root, LatticePoint tip
 }
 
 double LastLimb::SignificanceOf(const ThinSet& set, std::span<const LatticePoint> path) {
-  if (!significance_.has_value()) significance_.emplace(object_, noise_);
+  if (!significance_.has_value()) significance_.emplace(object_, noise_).Share(balls_);
   return significance_->Of(set, {{path.rbegin(), path.rend() - 1}, path.front()});
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include "core/pruning/ball_index.h"
 #include "core/pruning/significance.h"
 #include "core/pruning/surface_noise.h"
 #include "core/pruning/thin_set.h"
@@ -18,7 +19,10 @@ namespace bccskel {
 // Threads: one thread per instance.
 class LastLimb {
  public:
-  LastLimb(const Volume& object, const SurfaceNoise& noise) : object_(object), noise_(noise) {}
+  LastLimb(const Volume& object, const SurfaceNoise& noise, const BallIndex& balls)
+      : object_(object), noise_(noise), balls_(balls) {}
+  // Forgets what was measured of earlier paths.
+  void Forget() { significance_.reset(); }
 
   // Position of the limb's first point; `first` if there is no bead. Needs: a path of curve points
   // of `set` whose last point is an end; `first` is a position in it.
@@ -32,6 +36,7 @@ class LastLimb {
   bool SticksOut(const ThinSet& set, LatticePoint root, LatticePoint tip) const;
   const Volume& object_;
   const SurfaceNoise noise_;
+  const BallIndex balls_;
   std::optional<Significance> significance_;  // created on first use
 };
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -59,25 +58,6 @@ absl::Status CheckCurves(const ThinSkeleton& curves, const PruningOptions& optio
   }
   return absl::InvalidArgumentError(
       "pruning by persistence: needs to know when each point became an isthmus");
-}
-
-// Levels and tips are independent, so two workers compute them at the same time.
-void RunBoth(const std::function<void(const exec::Context&)>& first,
-             const std::function<void(const exec::Context&)>& second, int workers,
-             const exec::Context& context) {
-  if (workers == 1) {
-    first(context);
-    second(context);
-    return;
-  }
-  exec::Context alone = context;
-  alone.team = nullptr;
-  exec::Portions parts(2, 1);
-  context.Offer(2, [&](int) {
-    for (exec::Share mine = parts.Take(); mine.begin < mine.end; mine = parts.Take()) {
-      (mine.begin == 0 ? first : second)(alone);
-    }
-  });
 }
 
 // The path's deepest point; of several, the one nearest to its middle.
@@ -174,7 +154,7 @@ absl::StatusOr<ThinSkeleton> Prune(const ThinSkeleton& curves, const PrunedObjec
     StopPoll poll(context);
     RemoveSimplePoints(set, kept, poll);
   }
-  const Volume& space = in.space != nullptr ? *in.space : in.object;
+  const Volume& space = in.WhereDepthsAre();
   const SurfaceNoise noise = SurfaceNoiseOf(in.object, in.surface_step, in.slabs, context);
   const ExactRadius in_space = &space == &in.object ? in.radius : ExactRadius(space);
   Significance significance = SignificanceIn(space, in_space, in, noise);
@@ -197,19 +177,20 @@ absl::StatusOr<ThinSkeleton> Prune(const ThinSkeleton& curves, const PrunedObjec
   }
   PruningLevels levels;
   ThinSet before_tips = set;
-  const auto find_levels = [&](const exec::Context& own) {
+  exec::Context alone = context;
+  alone.team = nullptr;  // which places tips
+  const auto find_levels = [&] {
     levels = PruningLevelsOf(std::move(before_tips), significance, RuleOfLevels(options, curves),
-                             kept, own);
+                             kept, alone);
   };
   PointSet stay = kept;
   if (in.cuts != nullptr) stay.insert(in.cuts->middles.begin(), in.cuts->middles.end());
   absl::StatusOr<PointsByAxis> at_border = PointsByAxis();
-  const auto place_tips = [&](const exec::Context& own) {
-    if (!depths.has_value()) return;
-    at_border = PlaceTips(set, in, *depths, stay, noise, turned, own);
-  };
-  RunBoth(find_levels, place_tips, context.WorkersFor(set.Ends().size(), Significance::kWork),
-          context);
+  if (depths.has_value()) {
+    at_border = PlaceTips(set, in, *depths, stay, noise, turned, context, find_levels);
+  } else {
+    find_levels();
+  }
   if (!at_border.ok()) return at_border.status();
   if (absl::Status stop = context.StopStatus(); !stop.ok()) return stop;
   ThinSkeleton pruned = set.ToSkeleton(curves);

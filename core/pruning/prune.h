@@ -71,6 +71,8 @@ struct PrunedObject {
   // The box of the outermost points of the image whose border cuts limbs off; none: no image does.
   std::optional<LatticeBox> image = std::nullopt;
   const BorderCuts* cuts = nullptr;  // their middles are points to keep; null: none
+
+  const Volume& WhereDepthsAre() const { return space != nullptr ? *space : object; }
 };
 
 // Removes spurious branches and places the tips of the others. Points are removed and added one by

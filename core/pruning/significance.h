@@ -81,6 +81,8 @@ class Significance {
   // deepest point, minus one step of the surface, in radii of that ball. The width does not count,
   // since a flat object has a curve. `ways`: each leads from the deepest point to an end.
   double OfPath(const ThinSet& set, std::array<BranchPath, 2> ways) const;
+  // Uses these balls instead of indexing those of the set at the first use.
+  void Share(const BallIndex& balls) { balls_ = balls; }
   // Measures branches on the context's threads and caches the results for Of(). Leaves some out if
   // the context requests a stop. Needs: as Of().
   void LookAhead(const ThinSet& set, std::span<const FreeBranch> branches,

@@ -19,11 +19,50 @@ ThinSet::ThinSet(const ThinSkeleton& skeleton, const exec::Context& context)
     const NeighborPlanes planes = NeighborPlanesOf(thin, brick);
     thin.bricks()[brick].ForEachSetBit([&](int bit) {
       const int32_t birth = skeleton.births.empty() ? 0 : skeleton.births[n];
-      points_.Set(PointOf(at, bit), {skeleton.radii[n], birth, NeighborsAt(bit, planes)});
+      points_.Set(PointOf(at, bit), {skeleton.radii[n], birth, NeighborsAt(bit, planes), false});
       ++n;
     });
     if (poll.Stopped(n - first)) return;
   }
+}
+
+ThinSet ThinSet::Over(const ThinSet& below) {
+  ThinSet set(below.scale_);
+  set.below_ = &below;
+  return set;
+}
+
+std::vector<ThinSet::Change> ThinSet::TakeChanges() {
+  std::vector<Change> changes;
+  changes.reserve(points_.size());
+  points_.ForEach([&](LatticePoint p, const Entry& after) {
+    const Entry* before = below_->points_.Find(p);
+    const bool gone = before == nullptr;
+    changes.push_back({p, gone ? below_->NeighborsAround(p) : before->neighbors, gone, after});
+  });
+  points_ = {};
+  return changes;
+}
+
+bool ThinSet::Apply(std::span<const Change> changes) {
+  const bool as_before = std::ranges::all_of(changes, [&](const Change& change) {
+    return change.was_gone == !Contains(change.point) &&
+           change.neighbors == NeighborsAround(change.point);
+  });
+  if (!as_before) return false;
+  for (const Change& change : changes) {
+    if (!change.after.gone) {
+      points_.Set(change.point, change.after);
+    } else if (!change.was_gone) {
+      points_.Remove(change.point);
+    }
+  }
+  return true;
+}
+
+ThinSet::Entry& ThinSet::Own(LatticePoint p) {
+  if (below_ != nullptr && points_.Find(p) == nullptr) points_.Set(p, *below_->points_.Find(p));
+  return *points_.Find(p);
 }
 
 NeighborMask ThinSet::NeighborsAround(LatticePoint p) const {
@@ -36,18 +75,22 @@ NeighborMask ThinSet::NeighborsAround(LatticePoint p) const {
 
 void ThinSet::Add(LatticePoint p, float radius) {
   const NeighborMask neighbors = NeighborsAround(p);
-  points_.Set(p, {radius, 0, neighbors});
+  points_.Set(p, {radius, 0, neighbors, false});
   ForEachDirection(neighbors, [&](Direction d) {
-    NeighborMask& mask = points_.Find(p + d.offset())->neighbors;
+    NeighborMask& mask = Own(p + d.offset()).neighbors;
     mask = With(mask, d.Opposite());
   });
 }
 
 void ThinSet::Remove(LatticePoint p) {
   const NeighborMask neighbors = NeighborsOf(p);
-  points_.Remove(p);
+  if (below_ == nullptr) {
+    points_.Remove(p);
+  } else {
+    Own(p).gone = true;
+  }
   ForEachDirection(neighbors, [&](Direction d) {
-    NeighborMask& mask = points_.Find(p + d.offset())->neighbors;
+    NeighborMask& mask = Own(p + d.offset()).neighbors;
     mask = Without(mask, d.Opposite());
   });
 }

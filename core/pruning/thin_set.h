@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <unordered_set>
 #include <vector>
 
@@ -26,16 +27,41 @@ using PointSet = std::unordered_set<LatticePoint, LatticePointHash>;
 // The points of a skeleton while branches are removed and tips move, each with its radius, its
 // birth and its neighbors in the set.
 class ThinSet {
+  struct Entry {
+    float radius = 0;
+    int32_t birth = 0;
+    NeighborMask neighbors = 0;
+    bool gone = false;  // not in the set, unlike in the one below
+  };
+
  public:
+  // What became of a point of a set made by Over().
+  struct Change {
+    LatticePoint point;
+    NeighborMask neighbors = 0;  // before, whether or not the point was in the set
+    bool was_gone = false;
+    Entry after;
+  };
+
   // Empty or incomplete if the context requests a stop.
   explicit ThinSet(const ThinSkeleton& skeleton, const exec::Context& context = {});
+  // A set that equals `below` and keeps what changes to itself, so that several workers can try
+  // changes of one set. Needs: `below` outlives it and does not change. Members that count, list or
+  // visit all points are not for such a set.
+  static ThinSet Over(const ThinSet& below);
+  // Returns what changed in a set made by Over(), in any order, and forgets it.
+  std::vector<Change> TakeChanges();
+  // Makes these changes, unless one of the points has come or gone since, or a neighbor of one.
+  // Returns whether it did.
+  bool Apply(std::span<const Change> changes);
 
   const AxisScale& scale() const { return scale_; }
-  bool Contains(LatticePoint p) const { return points_.Find(p) != nullptr; }
+  size_t size() const { return points_.size(); }
+  bool Contains(LatticePoint p) const { return Find(p) != nullptr; }
   // Need: p is in the set.
-  float RadiusOf(LatticePoint p) const { return points_.Find(p)->radius; }
-  int32_t BirthOf(LatticePoint p) const { return points_.Find(p)->birth; }
-  NeighborMask NeighborsOf(LatticePoint p) const { return points_.Find(p)->neighbors; }
+  float RadiusOf(LatticePoint p) const { return Find(p)->radius; }
+  int32_t BirthOf(LatticePoint p) const { return Find(p)->birth; }
+  NeighborMask NeighborsOf(LatticePoint p) const { return Find(p)->neighbors; }
   bool IsEnd(LatticePoint p) const { return IsEndPoint(NeighborsOf(p)); }
   // Whether p has three or more neighbors, as in a junction or a surface.
   bool Branches(LatticePoint p) const { return HasThreeOrMore(NeighborsOf(p)); }
@@ -43,7 +69,7 @@ class ThinSet {
   NeighborMask NeighborsAround(LatticePoint p) const;
 
   void Add(LatticePoint p, float radius);
-  void SetRadius(LatticePoint p, float radius) { points_.Find(p)->radius = radius; }
+  void SetRadius(LatticePoint p, float radius) { Own(p).radius = radius; }
   void Remove(LatticePoint p);
 
   // End points, in lattice order.
@@ -53,6 +79,12 @@ class ThinSet {
   template <typename Visit>
   void ForEachPoint(Visit visit) const {
     points_.ForEach([&](LatticePoint p, const Entry&) { visit(p); });
+  }
+
+  // Calls visit(LatticePoint, float radius) likewise.
+  template <typename Visit>
+  void ForEachBall(Visit visit) const {
+    points_.ForEach([&](LatticePoint p, const Entry& entry) { visit(p, entry.radius); });
   }
 
   // Straight distance in lattice units.
@@ -71,14 +103,21 @@ class ThinSet {
   ThinSkeleton ToSkeleton(const ThinSkeleton& like) const;
 
  private:
-  struct Entry {
-    float radius = 0;
-    int32_t birth = 0;
-    NeighborMask neighbors = 0;
-  };
+  explicit ThinSet(const AxisScale& scale) : scale_(scale) {}
+
+  // Null if the point is not in the set.
+  const Entry* Find(LatticePoint p) const {
+    if (below_ == nullptr) return points_.Find(p);
+    const Entry* changed = points_.empty() ? nullptr : points_.Find(p);
+    if (changed == nullptr) return below_->points_.Find(p);
+    return changed->gone ? nullptr : changed;
+  }
+  // The entry of a point of the set, to be changed.
+  Entry& Own(LatticePoint p);
 
   AxisScale scale_;
-  PointTable<Entry> points_;
+  const ThinSet* below_ = nullptr;  // of a set made by Over()
+  PointTable<Entry> points_;        // those that changed, if there is a set below
 };
 
 // Calls visit(LatticePoint) for the neighbors in `mask`, in the order of kDirections14.

@@ -38,31 +38,23 @@ constexpr double kOffArcAtRoot = kOffArc / 2;  // the same where the arc begins 
 constexpr double kLimbAfterFlat = 0.95;        // least significance; corners of strips reach 0.9
 constexpr double kPointed = 0.7;  // largest radius at the end of a pointed limb, in its root's
 
+// What all tips of a skeleton have in common.
+struct TipTask {
+  const PrunedObject& in;
+  const PointSet& keep;
+  const SurfaceNoise& noise;
+  const TurnedTips& turned;
+  BallIndex balls;
+};
+
 class TipPlacer {
  public:
-  TipPlacer(ThinSet& set, const PrunedObject& in, TipDepths& depths, const PointSet& keep,
-            const SurfaceNoise& noise, const TurnedTips& turned, const exec::Context& context)
-      : set_(set),
-        bricks_(in.object),
-        bumps_(bricks_),
-        radius_(in.radius),
-        depth_(depths.firm),
-        steps_(set, in.object, depths.firm),
-        sections_(in.object),
-        flat_(in.object, depths.searching, depths.firm),  // it ends at the border
-        last_limb_(in.object, noise),
-        keep_(keep),
-        turned_(turned),
-        balls_(set, context),
-        scale_(AxisScaleOf(in.object.placement())),
-        step_(std::ranges::max(scale_)),
-        least_gain_(kGainBySteps * noise.step + kGainByNoise * noise.thin),
-        noise_(noise) {
-    if (in.image.has_value()) border_tips_.emplace(in.object, *in.image);
-  }
+  TipPlacer(ThinSet& set, const TipTask& task, TipDepths& depths)
+      : TipPlacer(set, task.in, task, depths) {}
 
   void Place(LatticePoint end) {
     if (!set_.Contains(end) || !set_.IsEnd(end)) return;
+    last_limb_.Forget();
     FreeBranch branch = BranchFrom(set_, end);
     FindRoot(branch);
     if (LeadToBorder(branch)) return;
@@ -81,13 +73,30 @@ class TipPlacer {
     MeasureGrown();
   }
 
-  // Returns the points of curves that lead to cuts at the border.
-  PointsByAxis AddAtBorder() && {
-    if (border_tips_.has_value()) border_tips_->AddBranches(radius_, set_, at_border_);
-    return std::move(at_border_);
-  }
+  // The points of curves that lead to cuts at the border, since the last call.
+  PointsByAxis TakeAtBorder() { return std::exchange(at_border_, {}); }
 
  private:
+  TipPlacer(ThinSet& set, const PrunedObject& in, const TipTask& task, TipDepths& depths)
+      : set_(set),
+        bricks_(in.object),
+        bumps_(bricks_),
+        radius_(in.radius),
+        depth_(depths.firm),
+        steps_(set, in.object, depths.firm),
+        sections_(in.object),
+        flat_(in.object, depths.searching, depths.firm),  // it ends at the border
+        last_limb_(in.object, task.noise, task.balls),
+        keep_(task.keep),
+        turned_(task.turned),
+        balls_(task.balls),
+        scale_(AxisScaleOf(in.object.placement())),
+        step_(std::ranges::max(scale_)),
+        least_gain_(kGainBySteps * task.noise.step + kGainByNoise * task.noise.thin),
+        noise_(task.noise) {
+    if (in.image.has_value()) border_tips_.emplace(in.object, *in.image);
+  }
+
   // Finds where the limb begins, by its largest run: no tip lies before that.
   void FindRoot(const FreeBranch& branch) {
     BranchPath path{{branch.points.rbegin(), branch.points.rend()}, {}};
@@ -378,17 +387,77 @@ class TipPlacer {
   PointsByAxis at_border_;
 };
 
+// Places tips of a set that other workers read, too: each as if it were the first.
+class TipTrial {
+ public:
+  struct Placed {
+    std::vector<ThinSet::Change> changes;
+    PointsByAxis at_border;
+  };
+
+  // Null `depths`: it has its own.
+  TipTrial(const ThinSet& set, const TipTask& task, TipDepths* depths)
+      : set_(ThinSet::Over(set)),
+        depths_(depths != nullptr ? std::nullopt : std::optional(TipDepths(task.in.WhereDepthsAre(), task.in.radius))),
+        placer_(set_, task, depths != nullptr ? *depths : *depths_) {}
+
+  Placed Place(LatticePoint end) {
+    placer_.Place(end);
+    return {set_.TakeChanges(), placer_.TakeAtBorder()};
+  }
+
+ private:
+  ThinSet set_;
+  std::optional<TipDepths> depths_;
+  TipPlacer placer_;
+};
+
+void Append(const PointsByAxis& more, PointsByAxis& points) {
+  for (size_t axis = 0; axis < points.size(); ++axis) {
+    points[axis].insert(points[axis].end(), more[axis].begin(), more[axis].end());
+  }
+}
+
 }  // namespace
 
 absl::StatusOr<PointsByAxis> PlaceTips(ThinSet& set, const PrunedObject& in, TipDepths& depths,
                                        const PointSet& keep, const SurfaceNoise& noise,
-                                       const TurnedTips& turned, const exec::Context& context) {
-  TipPlacer placer(set, in, depths, keep, noise, turned, context);
-  for (LatticePoint end : set.Ends()) {
+                                       const TurnedTips& turned, const exec::Context& context,
+                                       const std::function<void()>& meanwhile) {
+  const TipTask task = {in, keep, noise, turned, BallIndex(set, context)};
+  const std::vector<LatticePoint> ends = set.Ends();
+  std::vector<TipTrial::Placed> placed(ends.size());
+  exec::Portions portions(1 + ends.size(), 1);
+  context.Offer(context.WorkersFor(1 + ends.size(), Significance::kWork), [&](int worker) {
+    std::optional<TipTrial> trial;
+    for (exec::Share mine = portions.Take(); mine.begin < mine.end; mine = portions.Take()) {
+      if (context.ShouldStop()) return;
+      if (mine.begin == 0) {
+        meanwhile();
+        continue;
+      }
+      if (!trial.has_value()) trial.emplace(set, task, worker == 0 ? &depths : nullptr);
+      placed[mine.begin - 1] = trial->Place(ends[mine.begin - 1]);
+    }
+  });
+  PointsByAxis at_border;
+  std::optional<TipPlacer> placer;
+  for (size_t n = 0; n < ends.size(); ++n) {
     if (context.ShouldStop()) return context.StopStatus();
-    placer.Place(end);
+    if (set.Apply(placed[n].changes)) {
+      Append(placed[n].at_border, at_border);
+      continue;
+    }
+    if (!placer.has_value()) placer.emplace(set, task, depths);
+    placer->Place(ends[n]);
+    Append(placer->TakeAtBorder(), at_border);
   }
-  return std::move(placer).AddAtBorder();
+  if (in.image.has_value()) {
+    ExactRadius radius = in.radius;
+    BorderTips(in.object, *in.image).AddBranches(radius, set, at_border, context);
+    if (context.ShouldStop()) return context.StopStatus();
+  }
+  return at_border;
 }
 
 }  // namespace bccskel

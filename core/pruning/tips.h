@@ -1,6 +1,8 @@
 #ifndef BCCSKEL_CORE_PRUNING_TIPS_H_
 #define BCCSKEL_CORE_PRUNING_TIPS_H_
 
+#include <functional>
+
 #include "absl/status/statusor.h"
 #include "core/exec/context.h"
 #include "core/pruning/firm_depth.h"
@@ -21,11 +23,16 @@ namespace bccskel {
 // not cut off. Ends that turn aside are removed first from limbs that are not flat (TurnedTips).
 // Needs:  `depths` belong to in.object, or to in.space, into which no tip grows; `noise` is that of
 //         the object's surface.
+// Does:   each tip is placed as if it were the first, by whichever worker is free; tips that would
+//         change the same points, such as those of two limbs that touch, are placed one after the
+//         other. So the result does not depend on the number of threads.
+// `meanwhile`: work that one of the workers does at the same time. It must not change the set.
 // Returns the points of curves that were led to the middles of such cuts.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
 absl::StatusOr<PointsByAxis> PlaceTips(ThinSet& set, const PrunedObject& in, TipDepths& depths,
                                        const PointSet& keep, const SurfaceNoise& noise,
-                                       const TurnedTips& turned, const exec::Context& context);
+                                       const TurnedTips& turned, const exec::Context& context,
+                                       const std::function<void()>& meanwhile);
 
 }  // namespace bccskel
 
