@@ -2,6 +2,7 @@
 #define BCCSKEL_CORE_PRUNING_FIRM_DEPTH_H_
 
 #include <array>
+#include <optional>
 
 #include "core/distance/exact_radius.h"
 #include "core/distance/places.h"
@@ -57,6 +58,22 @@ struct TipDepths {
 
   ExactRadius searching;  // with pits
   FirmDepth firm;         // without
+};
+
+// The depths that one of several workers uses: worker 0 the given ones, the others their own.
+class DepthsOfWorker {
+ public:
+  // Needs: as TipDepths().
+  DepthsOfWorker(int worker, TipDepths& given, const Volume& object, const ExactRadius& radius)
+      : given_(given) {
+    if (worker > 0) own_.emplace(object, radius);
+  }
+  TipDepths& operator*() { return own_.has_value() ? *own_ : given_; }
+  TipDepths* operator->() { return &**this; }
+
+ private:
+  TipDepths& given_;
+  std::optional<TipDepths> own_;
 };
 
 }  // namespace bccskel

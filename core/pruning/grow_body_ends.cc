@@ -27,35 +27,40 @@ constexpr double kLeastDepth = 0.35;     // least depth there, in radii of the b
 
 class BodyEnds {
  public:
-  BodyEnds(ThinSet& set, const Volume& object, const ExactRadius& radius, FirmDepth& depth,
-           Significance& significance, double threshold)
+  BodyEnds(ThinSet& set, const PrunedObject& in, FirmDepth& depth, Significance& significance,
+           double threshold)
       : set_(set),
-        radius_(radius),
+        radius_(in.radius),
         depth_(depth),
-        steps_(set, object, depth),
+        steps_(set, in.object, depth),
         significance_(significance),
         threshold_(threshold) {}
 
-  void GrowAt(LatticePoint junction) {
+  // Returns whether an end grew; otherwise nothing changed.
+  bool GrowAt(LatticePoint junction) {
     const JunctionBall ball(set_, junction);
-    if (ball.exits().empty()) return;
+    if (ball.exits().empty()) return false;
     const LatticePoint body = ball.visited()[ball.body()].p;
     const Coordinates on = Unit(set_.Way(body, junction));
     double beside = 0;
     for (size_t exit : ball.exits()) {
       const LatticePoint p = ball.visited()[exit].p;
       const double cosine = Dot(on, Unit(set_.Way(junction, p)));
-      if (cosine > kOnTheWay) return;
+      if (cosine > kOnTheWay) return false;
       if (cosine > kBeside) beside = std::max<double>(beside, set_.RadiusOf(p));
     }
     for (size_t start : StartsIn(ball, on)) {
       path_ = ball.WayTo(start);
       own_ = path_.size();
       const bool left = Follow(ball, on, beside, body);
-      if (left && IsSignificant()) return MeasureGrown();
+      if (left && IsSignificant()) {
+        MeasureGrown();
+        return true;
+      }
       CutTo(own_);
-      if (left) return;  // other starts lead to the same ridge
+      if (left) return false;  // other starts lead to the same ridge
     }
+    return false;
   }
 
  private:
@@ -171,14 +176,48 @@ std::vector<LatticePoint> JunctionsOf(const ThinSet& set, const Significance& si
   return deepest;
 }
 
+// Grows ends in a set that other workers read, too: each as if it were the first.
+class Trial {
+ public:
+  Trial(int worker, const ThinSet& set, const PrunedObject& in, TipDepths& depths,
+        const Significance& significance, double threshold)
+      : set_(ThinSet::Over(set)),
+        depths_(worker, depths, in.WhereDepthsAre(), in.radius),
+        significance_(significance),
+        ends_(set_, in, depths_->firm, significance_, threshold) {}
+
+  std::vector<ThinSet::Change> GrowAt(LatticePoint junction) {
+    const bool grew = ends_.GrowAt(junction);
+    std::vector<ThinSet::Change> changes = set_.TakeChanges();
+    return grew ? std::move(changes) : std::vector<ThinSet::Change>();
+  }
+
+ private:
+  ThinSet set_;
+  DepthsOfWorker depths_;
+  Significance significance_;
+  BodyEnds ends_;
+};
+
 }  // namespace
 
-void GrowBodyEnds(ThinSet& set, const Volume& object, const ExactRadius& radius, FirmDepth& depth,
+void GrowBodyEnds(ThinSet& set, const PrunedObject& in, TipDepths& depths,
                   Significance& significance, double threshold, const exec::Context& context) {
-  BodyEnds ends(set, object, radius, depth, significance, threshold);
-  for (LatticePoint junction : JunctionsOf(set, significance)) {
+  const std::vector<LatticePoint> junctions = JunctionsOf(set, significance);
+  if (junctions.empty()) return;
+  std::vector<std::vector<ThinSet::Change>> grown(junctions.size());
+  exec::Portions portions(junctions.size(), 1);
+  context.Offer(context.WorkersFor(junctions.size(), Significance::kWork), [&](int worker) {
+    Trial trial(worker, set, in, depths, significance, threshold);
+    for (exec::Share mine = portions.Take(); mine.begin < mine.end; mine = portions.Take()) {
+      if (context.ShouldStop()) return;
+      grown[mine.begin] = trial.GrowAt(junctions[mine.begin]);
+    }
+  });
+  BodyEnds ends(set, in, depths.firm, significance, threshold);
+  for (size_t n = 0; n < junctions.size(); ++n) {
     if (context.ShouldStop()) return;
-    ends.GrowAt(junction);
+    if (!set.Apply(grown[n])) ends.GrowAt(junctions[n]);
   }
 }
 

@@ -1,12 +1,11 @@
 #ifndef BCCSKEL_CORE_PRUNING_GROW_BODY_ENDS_H_
 #define BCCSKEL_CORE_PRUNING_GROW_BODY_ENDS_H_
 
-#include "core/distance/exact_radius.h"
 #include "core/exec/context.h"
 #include "core/pruning/firm_depth.h"
+#include "core/pruning/prune.h"
 #include "core/pruning/significance.h"
 #include "core/pruning/thin_set.h"
-#include "core/volume/volume.h"
 
 namespace bccskel {
 
@@ -18,9 +17,9 @@ namespace bccskel {
 //        found stay as a branch if they lie in no other branch's ball and are significant
 //        (Significance::OfBodyEnd()).
 // Why the topology stays: each point touches the set only at the point before it.
-// Needs: `radius` belongs to the object, `depth` to the object or to it with points beyond its
-//        border.
-void GrowBodyEnds(ThinSet& set, const Volume& object, const ExactRadius& radius, FirmDepth& depth,
+// Does:  each junction is tried as if it were the first, like tips by PlaceTips().
+// Needs: `depths` belong to in.object, or to in.space.
+void GrowBodyEnds(ThinSet& set, const PrunedObject& in, TipDepths& depths,
                   Significance& significance, double threshold, const exec::Context& context);
 
 }  // namespace bccskel

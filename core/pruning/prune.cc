@@ -170,7 +170,7 @@ absl::StatusOr<ThinSkeleton> Prune(const ThinSkeleton& curves, const PrunedObjec
     if (by_shape) {
       CollapsePaths(set, significance, threshold, kept);
       if (depths.has_value()) {
-        GrowBodyEnds(set, in.object, in.radius, depths->firm, significance, threshold, context);
+        GrowBodyEnds(set, in, *depths, significance, threshold, context);
       }
     }
     if (absl::Status stop = context.StopStatus(); !stop.ok()) return stop;

@@ -395,11 +395,10 @@ class TipTrial {
     PointsByAxis at_border;
   };
 
-  // Null `depths`: it has its own.
-  TipTrial(const ThinSet& set, const TipTask& task, TipDepths* depths)
+  TipTrial(int worker, const ThinSet& set, const TipTask& task, TipDepths& depths)
       : set_(ThinSet::Over(set)),
-        depths_(depths != nullptr ? std::nullopt : std::optional(TipDepths(task.in.WhereDepthsAre(), task.in.radius))),
-        placer_(set_, task, depths != nullptr ? *depths : *depths_) {}
+        depths_(worker, depths, task.in.WhereDepthsAre(), task.in.radius),
+        placer_(set_, task, *depths_) {}
 
   Placed Place(LatticePoint end) {
     placer_.Place(end);
@@ -408,7 +407,7 @@ class TipTrial {
 
  private:
   ThinSet set_;
-  std::optional<TipDepths> depths_;
+  DepthsOfWorker depths_;
   TipPlacer placer_;
 };
 
@@ -436,7 +435,7 @@ absl::StatusOr<PointsByAxis> PlaceTips(ThinSet& set, const PrunedObject& in, Tip
         meanwhile();
         continue;
       }
-      if (!trial.has_value()) trial.emplace(set, task, worker == 0 ? &depths : nullptr);
+      if (!trial.has_value()) trial.emplace(worker, set, task, depths);
       placed[mine.begin - 1] = trial->Place(ends[mine.begin - 1]);
     }
   });
