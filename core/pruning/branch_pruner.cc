@@ -50,7 +50,13 @@ void BranchPruner::JudgeAll() {
     FreeBranch branch = BranchFrom(set_, end);
     if (MayGo(branch)) branches.push_back(std::move(branch));
   }
-  if (rule_ == PruningRule::kSignificance) significance_.LookAhead(set_, branches, context_);
+  if (rule_ == PruningRule::kSignificance) {
+    const std::vector<double> worths = significance_.OfAll(set_, branches, context_);
+    for (size_t n = 0; n < branches.size(); ++n) {
+      if (worths[n] < threshold_) turns_.emplace(worths[n], branches[n].points[0]);
+    }
+    return;
+  }
   for (const FreeBranch& branch : branches) {
     if (poll.Stopped(kStepsOfABranch)) return;
     Judge(branch);

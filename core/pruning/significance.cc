@@ -169,27 +169,36 @@ double Significance::OfPath(const ThinSet& set, std::array<BranchPath, 2> ways) 
   return (elongation - noise_.step) / ways[0].radii[0];
 }
 
-void Significance::LookAhead(const ThinSet& set, std::span<const FreeBranch> branches,
-                             const exec::Context& context) {
-  std::vector<const FreeBranch*> unknown;
-  for (const FreeBranch& branch : branches) {
-    if (Known(branch) == nullptr) unknown.push_back(&branch);
-  }
-  const int workers = context.WorkersFor(unknown.size(), kWork);
-  if (workers > 1) {  // else Of() looks as well
-    std::vector<Verdict> found(unknown.size());
-    exec::Portions portions(unknown.size(), 1);
-    context.Offer(workers, [&](int) {
-      Significance own = *this;
-      for (exec::Share mine = portions.Take(); mine.begin < mine.end; mine = portions.Take()) {
-        if (context.ShouldStop()) return;
-        found[mine.begin] = own.Look(set, *unknown[mine.begin]);
+std::vector<double> Significance::OfAll(const ThinSet& set, std::span<const FreeBranch> branches,
+                                        const exec::Context& context) {
+  std::vector<double> values(branches.size(), kNone);
+  std::vector<std::optional<Verdict>> verdicts(branches.size());
+  if (!balls_.has_value()) balls_.emplace(set, context);
+  exec::Portions portions(branches.size(), 1);
+  const auto measure = [&](Significance& own) {
+    for (exec::Share mine = portions.Take(); mine.begin < mine.end; mine = portions.Take()) {
+      if (context.ShouldStop()) return;
+      const FreeBranch& branch = branches[mine.begin];
+      values[mine.begin] = own.Of(set, branch);
+      if (&own == this) continue;
+      if (const Verdict* found = own.Known(branch); found != nullptr) {
+        verdicts[mine.begin] = *found;
       }
-    });
-    if (context.ShouldStop()) return;
-    for (size_t n = 0; n < unknown.size(); ++n) verdicts_.Set(unknown[n]->points[0], found[n]);
+    }
+  };
+  const int workers = context.WorkersFor(branches.size(), kWork);
+  if (workers == 1) {
+    measure(*this);
+    return values;
   }
-  if (!balls_.has_value()) balls_.emplace(set, context);  // now: workers need no copies
+  context.Offer(workers, [&](int) {
+    Significance own = *this;
+    measure(own);
+  });
+  for (size_t n = 0; n < branches.size(); ++n) {
+    if (verdicts[n].has_value()) verdicts_.Set(branches[n].points[0], *verdicts[n]);
+  }
+  return values;
 }
 
 const Significance::Verdict* Significance::Known(const FreeBranch& branch) const {

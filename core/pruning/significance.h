@@ -42,7 +42,7 @@ namespace bccskel {
 // Cost:  48 points of the branch for each of its runs, one or several. For a run that may be the
 //        best, 176 rays if it sticks out at all, up to 396 if the branch may stay and is not round,
 //        and in a wall up to 198 more that follow it.
-// Threads: one thread per instance; LookAhead() uses the context's.
+// Threads: one thread per instance; OfAll() uses the context's.
 class Significance {
  public:
   static constexpr size_t kPlaces = kRunPlaces;  // positions of a run, evenly spaced
@@ -64,6 +64,12 @@ class Significance {
   // Needs: the branch belongs to `set`, whose points are points of the object, and has a junction.
   //        All calls pass the same set; its points may be removed, but their radii never change.
   double Of(const ThinSet& set, const FreeBranch& branch);
+  // The same of several branches, on the context's threads; some are -infinity if it requests a
+  // stop.
+  std::vector<double> OfAll(const ThinSet& set, std::span<const FreeBranch> branches,
+                            const exec::Context& context);
+  // Uses these balls instead of indexing those of the set at the first use.
+  void Share(const BallIndex& balls) { balls_ = balls; }
   // The significance of a branch as the end of a body (IsBodyEnd()), a lower bound of Of(): how far
   // it sticks out of the ball at its junction, relative to that ball's radius and the width, as
   // above. -infinity if the branch is not the end of a body, the ball is too small, or the value is
@@ -81,12 +87,6 @@ class Significance {
   // deepest point, minus one step of the surface, in radii of that ball. The width does not count,
   // since a flat object has a curve. `ways`: each leads from the deepest point to an end.
   double OfPath(const ThinSet& set, std::array<BranchPath, 2> ways) const;
-  // Uses these balls instead of indexing those of the set at the first use.
-  void Share(const BallIndex& balls) { balls_ = balls; }
-  // Measures branches on the context's threads and caches the results for Of(). Leaves some out if
-  // the context requests a stop. Needs: as Of().
-  void LookAhead(const ThinSet& set, std::span<const FreeBranch> branches,
-                 const exec::Context& context);
 
  private:
   // The cached result for a branch, needed again whenever something near it is removed.
