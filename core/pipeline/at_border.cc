@@ -1,6 +1,9 @@
 #include "core/pipeline/at_border.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <span>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -18,28 +21,57 @@ namespace {
 
 constexpr double kMostRadii = 2, kReachMargin = 8;  // lattice units
 
-// The bricks of the object that are at most `reach`, in lattice units, from those of the points.
-Volume PartAround(const std::vector<LatticePoint>& points, double reach, const Volume& object) {
+// The boxes of curves, each of which is given from neighbor to neighbor.
+std::vector<LatticeBox> BoxesOfCurves(const std::vector<LatticePoint>& points) {
+  constexpr int32_t kStep = 2;  // the longest between neighbors
+  std::vector<LatticeBox> boxes;
+  LatticePoint last;
+  for (LatticePoint p : points) {
+    const LatticePoint step = p - last;
+    const bool goes_on = std::max({std::abs(step.x), std::abs(step.y), std::abs(step.z)}) <= kStep;
+    if (boxes.empty() || !goes_on) boxes.push_back({p, p});
+    LatticeBox& box = boxes.back();
+    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
+    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
+    last = p;
+  }
+  return boxes;
+}
+
+// The bricks of the object that are at most `reach`, in lattice units, from the curves' boxes, and
+// some that are farther away.
+Volume PartAround(const std::vector<LatticePoint>& curves, double reach, const Volume& object) {
   const AxisScale scale = AxisScaleOf(object.placement());
-  std::vector<BrickKey> homes;
-  for (LatticePoint p : points) homes.emplace_back(AddressOf(p).brick);
-  std::ranges::sort(homes);
-  homes.erase(std::unique(homes.begin(), homes.end()), homes.end());
-  const auto is_near = [&](const LatticeBox& a, BrickKey home) {
-    const LatticeBox b = BoxOf(home.coordinates());
-    const auto apart = [&](int32_t low_a, int32_t high_a, int32_t low_b, int32_t high_b) {
-      return std::max({0, low_a - high_b, low_b - high_a});
+  const std::span<const BrickKey> all = object.keys();
+  std::vector<char> is_near(all.size());
+  for (const LatticeBox& box : BoxesOfCurves(curves)) {
+    const auto before = [&](int32_t low, size_t axis, int32_t points) {
+      return static_cast<int32_t>(std::max(std::floor(low - reach / scale[axis]), 0.0)) / points;
     };
-    return scale[0] * apart(a.low.x, a.high.x, b.low.x, b.high.x) <= reach &&
-           scale[1] * apart(a.low.y, a.high.y, b.low.y, b.high.y) <= reach &&
-           scale[2] * apart(a.low.z, a.high.z, b.low.z, b.high.z) <= reach;
-  };
+    const auto behind = [&](int32_t high, size_t axis, int32_t points) {
+      return static_cast<int32_t>(high + std::ceil(reach / scale[axis])) / points;
+    };
+    const BrickCoordinates low = {before(box.low.x, 0, 2 * kBrickX),
+                                  before(box.low.y, 1, 2 * kBrickY),
+                                  before(box.low.z, 2, 2 * kBrickZ)};
+    const BrickCoordinates high = {behind(box.high.x, 0, 2 * kBrickX),
+                                   behind(box.high.y, 1, 2 * kBrickY),
+                                   behind(box.high.z, 2, 2 * kBrickZ), Sublattice::kOdd};
+    for (int32_t bz = low.bz; bz <= high.bz; ++bz) {
+      for (int32_t by = low.by; by <= high.by; ++by) {
+        const BrickKey first({low.bx, by, bz, low.sublattice});
+        const BrickKey last({high.bx, by, bz, high.sublattice});
+        for (auto at = std::ranges::lower_bound(all, first); at != all.end() && *at <= last; ++at) {
+          is_near[static_cast<size_t>(at - all.begin())] = 1;
+        }
+      }
+    }
+  }
   std::vector<BrickKey> keys;
   std::vector<BrickBits> bricks;
-  for (BrickIndex n = 0; n < object.brick_count(); ++n) {
-    const LatticeBox box = BoxOf(object.keys()[n].coordinates());
-    if (std::ranges::none_of(homes, [&](BrickKey home) { return is_near(box, home); })) continue;
-    keys.push_back(object.keys()[n]);
+  for (BrickIndex n = 0; n < all.size(); ++n) {
+    if (is_near[n] == 0) continue;
+    keys.push_back(all[n]);
     bricks.push_back(object.bricks()[n]);
   }
   return Volume::FromSortedBricks(object.extent(), object.placement(), std::move(keys),

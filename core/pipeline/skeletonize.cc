@@ -22,13 +22,20 @@
 namespace bccskel {
 namespace {
 
+// Returns the radii that the graph had.
 // Needs: the points of the graph are those of `thin`; `radii` in the order of its ForEachPoint().
-void SetRadii(const std::vector<float>& radii, const Volume& thin, SkeletonGraph& graph) {
+std::vector<float> SetRadii(const std::vector<float>& radii, const Volume& thin,
+                            SkeletonGraph& graph) {
   PointTable<float> by_point;
   by_point.Reserve(radii.size());
   size_t n = 0;
   thin.ForEachPoint([&](LatticePoint p) { by_point.Set(p, radii[n++]); });
-  for (SkeletonPoint& p : graph.points) p.radius = *by_point.Find(p.point);
+  std::vector<float> before;
+  before.reserve(graph.points.size());
+  for (SkeletonPoint& p : graph.points) {
+    before.push_back(std::exchange(p.radius, *by_point.Find(p.point)));
+  }
+  return before;
 }
 
 // Points that stay although they may be simple: isthmuses, if they do not form curves, and those
@@ -222,11 +229,11 @@ class Pipeline {
       const uint64_t searches = kMostDistancesOfPoint * skeleton_.points.PointCount();
       BCCSKEL_RETURN_IF_ERROR(PrepareRadii(object, searches, distance, context_));
     }
-    const bool differ = exact != skeleton_.radii;
-    if (differ) SetRadii(exact, skeleton_.points, result_.graph);
+    std::vector<float> stated;
+    if (exact != skeleton_.radii) stated = SetRadii(exact, skeleton_.points, result_.graph);
     BCCSKEL_RETURN_IF_ERROR(CenterCurves(object, distance, context_, result_.graph));
     DropShifts(at_border_, result_.graph);
-    if (differ) SetRadii(skeleton_.radii, skeleton_.points, result_.graph);
+    for (size_t n = 0; n < stated.size(); ++n) result_.graph.points[n].radius = stated[n];
     return absl::OkStatus();
   }
 

@@ -276,7 +276,8 @@ class Merger {
   std::vector<OpenEdge> RemainingEdges() const;
   std::vector<uint32_t> KeepNodes();
   void SetEdges(std::vector<OpenEdge> edges);
-  void AddLostPoints(const Path& before);
+  Path PointsOfChangedEdges() const;
+  void AddLostPoints(Path before);
 
   const double reach_;
   SkeletonGraph& graph_;
@@ -348,16 +349,36 @@ void Merger::SetEdges(std::vector<OpenEdge> edges) {
   }
 }
 
-// Cutting paths short may leave points beside them, which are thick spots now.
-void Merger::AddLostPoints(const Path& before) {
-  Path now = graph_.points;
-  for (const SkeletonNode& node : graph_.nodes) now.push_back(node.at);
+// Of the edges that are joined with others, dissolved or cut short.
+Path Merger::PointsOfChangedEdges() const {
+  Path points;
+  for (uint32_t e = 0; e < graph_.edges.size(); ++e) {
+    const SkeletonEdge& edge = graph_.edges[e];
+    if (dissolved_[e] == 0 && node_of_[edge.source] == kNone && node_of_[edge.target] == kNone) {
+      continue;
+    }
+    const auto own = graph_.PointsOf(edge);
+    points.insert(points.end(), own.begin(), own.end());
+  }
+  return points;
+}
+
+// Cutting paths short may leave points beside them, which are thick spots now. `before`: those that
+// may be lost.
+void Merger::AddLostPoints(Path before) {
+  std::ranges::sort(before);
   if (poll_.StoppedNow()) return;
-  std::ranges::sort(now);
+  std::vector<char> stays(before.size());
+  const auto keep = [&](const SkeletonPoint& p) {
+    const auto [first, last] = std::equal_range(before.begin(), before.end(), p);
+    std::fill(stays.begin() + (first - before.begin()), stays.begin() + (last - before.begin()), 1);
+  };
+  std::ranges::for_each(graph_.points, keep);
   if (poll_.StoppedNow()) return;
+  for (const SkeletonNode& node : graph_.nodes) keep(node.at);
   Path lost;
-  for (const SkeletonPoint& p : before) {
-    if (!std::ranges::binary_search(now, p)) lost.push_back(p);
+  for (size_t n = 0; n < before.size(); ++n) {
+    if (stays[n] == 0) lost.push_back(before[n]);
   }
   if (lost.empty()) return;
   graph_.sheets.insert(graph_.sheets.end(), lost.begin(), lost.end());
@@ -368,14 +389,14 @@ void Merger::AddLostPoints(const Path& before) {
 void Merger::Rebuild() {
   std::vector<OpenEdge> edges = RemainingEdges();
   if (poll_.StoppedNow()) return;
+  Path before = PointsOfChangedEdges();
   const std::vector<uint32_t> place = KeepNodes();
   for (OpenEdge& edge : edges) {
     edge.source = place[edge.source];
     edge.target = place[edge.target];
   }
-  const Path before = graph_.points;
   SetEdges(std::move(edges));
-  AddLostPoints(before);
+  AddLostPoints(std::move(before));
 }
 
 }  // namespace
