@@ -24,7 +24,9 @@ size_t LevelOf(float radius) {
 BallIndex::BallIndex(const ThinSet& set, const exec::Context& context) : scale_(set.scale()) {
   StopPoll poll(context);
   auto shared = std::make_shared<Cubes>();
-  auto& [balls, cubes, levels] = *shared;
+  std::vector<Ball>& balls = shared->balls;
+  std::vector<Cube>& cubes = shared->cubes;
+  auto& levels = shared->levels;
   std::vector<uint32_t> cube_of;  // of each point, in the order of the set
   cube_of.reserve(set.size());
   set.ForEachBall([&](LatticePoint p, float radius) {

@@ -15,9 +15,6 @@ namespace {
 
 constexpr double kWallSteepness = 0.4;  // weight of the inscribed circle's fall in a wall
 constexpr double kWidthShare = 2.2;     // weight of half-width - radius
-constexpr double kNoiseMargin = 2;      // units more, since squares are subtracted
-constexpr double kLeastStretch = 0.4;   // share of the stretch of the noise that the margin gets
-constexpr double kRoughMargin = 10;     // the same, for each unit of roughness
 constexpr double kSureRatio = 2;        // above this, what lies beyond the end does not matter
 constexpr double kLeastRatio = 0.2;     // below this, the branch is a bump whatever its width
 constexpr double kLeastFine = 0.35;     // below this, a rough value suffices
@@ -95,8 +92,9 @@ double Significance::Of(const ThinSet& set, const FreeBranch& branch) {
 double Significance::BesideTrunk(const ThinSet& set, const BranchPath& path, const Run& run) {
   const Coordinates along = set.Way(path.points[run.from], path.points[run.to]);
   const double root = path.radii[run.from], rough = std::min(kRoughShare * noise_.roughness, 1.0);
-  const double simple = run.elongation - noise_.Stretch(along) * noise_.At(root) - kNoiseMargin;
-  const double out = (1 - rough) * BeyondNoise(run.elongation, root, along) + rough * simple;
+  const double simple =
+      run.elongation - noise_.Stretch(along) * noise_.At(root) - SurfaceNoise::kMargin;
+  const double out = (1 - rough) * noise_.Beyond(run.elongation, root, along) + rough * simple;
   if (out < kLeastRatio * root) return 0;
   const auto wider = WidthBesideTrunk(set, path, run, sections_);
   return wider.has_value() ? out / (root + kWidthShare * *wider) : 0;
@@ -137,7 +135,7 @@ double Significance::OfBodyEnd(const ThinSet& set, const FreeBranch& branch, dou
     if (out > farthest) farthest = out, tip = path.points[n];
   }
   if (farthest == 0) return kNone;
-  const double out = BeyondNoise(farthest, radius, set.Way(junction, tip));
+  const double out = noise_.Beyond(farthest, radius, set.Way(junction, tip));
   if (out / radius <= least) return kNone;
   const size_t middle = branch.points.size() / 2;
   const LatticePoint p = branch.points[middle];
@@ -150,7 +148,7 @@ double Significance::OfBodyEnd(const ThinSet& set, const FreeBranch& branch, dou
 }
 
 bool Significance::MayHaveBodyEnds(double radius) const {
-  return radius >= kLeastBall * (noise_.At(radius) + kNoiseMargin);
+  return radius >= kLeastBall * (noise_.At(radius) + SurfaceNoise::kMargin);
 }
 
 bool Significance::IsCovered(const ThinSet& set, std::span<const LatticePoint> path,
@@ -247,17 +245,6 @@ void Significance::Consider(const ThinSet& set, const BranchPath& path, const Ru
   if (value > best.value) best.run = run, best.value = value;
 }
 
-// Shape and noise are independent, so their squares add. The margin is for the thinnest limbs, for
-// which this is less than the noise itself.
-double Significance::BeyondNoise(double elongation, double radius, const Coordinates& way) const {
-  const double stretch = noise_.Stretch(way);
-  const double share = std::clamp(kRoughMargin * noise_.roughness, kLeastStretch, 1.0);
-  const double margin = kNoiseMargin * (1 + share * (stretch - 1));
-  const double noise = stretch * noise_.At(radius) + margin;
-  if (elongation <= noise) return elongation - noise;
-  return std::sqrt(elongation * elongation - noise * noise);
-}
-
 // An upper bound: being wider than thick only lowers the value.
 double Significance::ValueAtMost(const ThinSet& set, const BranchPath& path, const Run& run) const {
   double most = 0;
@@ -269,7 +256,7 @@ double Significance::ValueAtMost(const ThinSet& set, const BranchPath& path, con
       const double fallen = kSteepness * (depth - path.radii[tip]);
       const double way = set.Between(path.points[root], path.points[tip]);
       const Coordinates along = set.Way(path.points[root], path.points[tip]);
-      most = std::max(most, BeyondNoise(way - fallen, depth, along) / depth);
+      most = std::max(most, noise_.Beyond(way - fallen, depth, along) / depth);
     }
   }
   return most;
@@ -281,7 +268,7 @@ double Significance::ValueAtMost(const ThinSet& set, const BranchPath& path, con
 double Significance::ValueOf(const ThinSet& set, const BranchPath& path, const Run& run,
                              double least) {
   const Coordinates along = set.Way(path.points[run.from], path.points[run.to]);
-  const double radius = path.radii[run.from], out = BeyondNoise(run.elongation, radius, along);
+  const double radius = path.radii[run.from], out = noise_.Beyond(run.elongation, radius, along);
   const double reach = std::min(kLongestRay, out / (kWidthShare * kLeastRatio) + 2 * radius + 4);
   Sections sections = SectionsAcross(path, run, reach);
   const CrossSection& near_tip = sections[kNearTip];
@@ -344,7 +331,7 @@ double Significance::ValueOf(const Part& part, const Sections& sections, double 
   const CrossSection& root = sections[part.root];
   const double fallen = std::max(kSteepness * (root.radius - sections[part.tip].radius), narrower);
   const double out = part.length - fallen;
-  return BeyondNoise(out, root.radius, part.way) / (root.radius + kWidthShare * part.wider);
+  return noise_.Beyond(out, root.radius, part.way) / (root.radius + kWidthShare * part.wider);
 }
 
 // Beyond sheets, extends the path only if that may change the decision: it adds at most its length

@@ -127,7 +127,6 @@ class Significance {
                  double least = -std::numeric_limits<double>::infinity());
   double RoughValueOf(const std::vector<Part>& parts, const Sections& sections,
                       double width_near_tip) const;
-  double BeyondNoise(double elongation, double radius, const Coordinates& way) const;
   // An upper bound of ValueOf() without rays; it holds in floating point, too.
   double ValueAtMost(const ThinSet& set, const BranchPath& path, const Run& run) const;
   double UncoveredShare(const ThinSet& set, const FreeBranch& branch, const Run& run);

@@ -18,6 +18,8 @@ namespace {
 constexpr double kSmooth = 0.01, kRough = 0.025;  // roughness
 constexpr double kLeastNoise = 1.5;               // lattice units
 constexpr double kMostSteps = 3;
+constexpr double kLeastStretch = 0.4;  // share of the stretch of the noise that the margin gets
+constexpr double kRoughMargin = 10;    // the same, for each unit of roughness
 
 constexpr uint64_t kFirstInRows = 0x0001'0001'0001'0001;
 constexpr uint64_t kLastInRows = kFirstInRows << 15;
@@ -69,6 +71,17 @@ SurfaceCount CountIn(const Volume& object, const exec::Share& share) {
 }
 
 }  // namespace
+
+// Shape and noise are independent, so their squares add. The margin is for the thinnest limbs, for
+// which this is less than the noise itself.
+double SurfaceNoise::Beyond(double elongation, double radius, const Coordinates& way) const {
+  const double stretch = Stretch(way);
+  const double share = std::clamp(kRoughMargin * roughness, kLeastStretch, 1.0);
+  const double margin = kMargin * (1 + share * (stretch - 1));
+  const double noise = stretch * At(radius) + margin;
+  if (elongation <= noise) return elongation - noise;
+  return std::sqrt(elongation * elongation - noise * noise);
+}
 
 double Roughness(const Volume& object, const exec::Context& context) {
   std::atomic<int64_t> pits = 0;

@@ -43,7 +43,12 @@ struct SurfaceNoise {
     return std::sqrt(Dot(by_edges, by_edges) / Dot(way, way));
   }
 
+  // What is left of how far a branch sticks out beyond the allowance and a margin, if its radius
+  // where it begins is `radius` and it leads in the direction of `way`; negative within them.
+  double Beyond(double elongation, double radius, const Coordinates& way) const;
+
   static constexpr double kThinSteps = 1.5;
+  static constexpr double kMargin = 2;  // units more, since squares are subtracted
 };
 
 // Measures the allowance: at least one step of the surface and 1.5 units where the surface is

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <queue>
+#include <set>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -14,11 +16,10 @@
 #include "absl/strings/str_format.h"
 #include "core/distance/places.h"
 #include "core/exec/stop_poll.h"
+#include "core/skeleton/joined_paths.h"
 
 namespace bccskel {
 namespace {
-
-using Path = std::vector<SkeletonPoint>;
 
 // More junctions in one ball are no place where limbs meet but a sponge: noise that bored tunnels.
 // Joined, each of their edges would have to run on to the middle of the body.
@@ -42,21 +43,6 @@ struct OpenEdge {
   Path points;
   double level;
 };
-
-// Joins two paths, the second from where the first ends. Where the second begins by going back
-// along the first, both are cut short.
-Path Joined(Path first, const Path& second) {
-  size_t back = 0;
-  while (first.size() > 1 && back + 2 < second.size() &&
-         first[first.size() - 2] == second[back + 1]) {
-    first.pop_back();
-    ++back;
-  }
-  first.insert(first.end(), second.begin() + static_cast<ptrdiff_t>(back) + 1, second.end());
-  return first;
-}
-
-Path Reversed(const Path& path) { return {path.rbegin(), path.rend()}; }
 
 // Part of a limb, away from where limbs cross.
 struct Ray {
@@ -273,11 +259,11 @@ class Merger {
     return {points.begin(), points.end()};
   }
 
-  std::vector<OpenEdge> RemainingEdges() const;
+  // `changed` receives the points of edges that are dissolved or joined with others.
+  std::vector<OpenEdge> RemainingEdges(Path& changed) const;
   std::vector<uint32_t> KeepNodes();
   void SetEdges(std::vector<OpenEdge> edges);
-  Path PointsOfChangedEdges() const;
-  void AddLostPoints(Path before);
+  void AddLostPoints(const Path& changed);
 
   const double reach_;
   SkeletonGraph& graph_;
@@ -290,11 +276,14 @@ class Merger {
   std::vector<uint8_t> dissolved_;    // by edge
 };
 
-std::vector<OpenEdge> Merger::RemainingEdges() const {
+std::vector<OpenEdge> Merger::RemainingEdges(Path& changed) const {
   std::vector<OpenEdge> edges;
   for (uint32_t e = 0; e < graph_.edges.size() && !poll_.Stopped(); ++e) {
-    if (dissolved_[e] != 0) continue;
     const SkeletonEdge& edge = graph_.edges[e];
+    if (dissolved_[e] != 0 || node_of_[edge.source] != kNone || node_of_[edge.target] != kNone) {
+      std::ranges::copy(graph_.PointsOf(edge), std::back_inserter(changed));
+    }
+    if (dissolved_[e] != 0) continue;
     OpenEdge open{edge.source, edge.target, PathOf(edge), edge.pruning_level};
     if (node_of_[edge.source] != kNone) {
       open.source = node_of_[edge.source];
@@ -349,37 +338,14 @@ void Merger::SetEdges(std::vector<OpenEdge> edges) {
   }
 }
 
-// Of the edges that are joined with others, dissolved or cut short.
-Path Merger::PointsOfChangedEdges() const {
-  Path points;
-  for (uint32_t e = 0; e < graph_.edges.size(); ++e) {
-    const SkeletonEdge& edge = graph_.edges[e];
-    if (dissolved_[e] == 0 && node_of_[edge.source] == kNone && node_of_[edge.target] == kNone) {
-      continue;
-    }
-    const auto own = graph_.PointsOf(edge);
-    points.insert(points.end(), own.begin(), own.end());
+// Cutting paths short may leave points beside them, which are thick spots now.
+void Merger::AddLostPoints(const Path& changed) {
+  std::set<SkeletonPoint> lost(changed.begin(), changed.end());
+  for (const SkeletonPoint& p : graph_.points) {
+    if (poll_.Stopped()) return;
+    lost.erase(p);
   }
-  return points;
-}
-
-// Cutting paths short may leave points beside them, which are thick spots now. `before`: those that
-// may be lost.
-void Merger::AddLostPoints(Path before) {
-  std::ranges::sort(before);
-  if (poll_.StoppedNow()) return;
-  std::vector<char> stays(before.size());
-  const auto keep = [&](const SkeletonPoint& p) {
-    const auto [first, last] = std::equal_range(before.begin(), before.end(), p);
-    std::fill(stays.begin() + (first - before.begin()), stays.begin() + (last - before.begin()), 1);
-  };
-  std::ranges::for_each(graph_.points, keep);
-  if (poll_.StoppedNow()) return;
-  for (const SkeletonNode& node : graph_.nodes) keep(node.at);
-  Path lost;
-  for (size_t n = 0; n < before.size(); ++n) {
-    if (stays[n] == 0) lost.push_back(before[n]);
-  }
+  for (const SkeletonNode& node : graph_.nodes) lost.erase(node.at);
   if (lost.empty()) return;
   graph_.sheets.insert(graph_.sheets.end(), lost.begin(), lost.end());
   std::ranges::sort(graph_.sheets);
@@ -387,16 +353,16 @@ void Merger::AddLostPoints(Path before) {
 }
 
 void Merger::Rebuild() {
-  std::vector<OpenEdge> edges = RemainingEdges();
+  Path changed;
+  std::vector<OpenEdge> edges = RemainingEdges(changed);
   if (poll_.StoppedNow()) return;
-  Path before = PointsOfChangedEdges();
   const std::vector<uint32_t> place = KeepNodes();
   for (OpenEdge& edge : edges) {
     edge.source = place[edge.source];
     edge.target = place[edge.target];
   }
   SetEdges(std::move(edges));
-  AddLostPoints(std::move(before));
+  AddLostPoints(changed);
 }
 
 }  // namespace
