@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "absl/base/attributes.h"
 #include "core/distance/chamfer_weights.h"
 #include "core/lattice/directions.h"
 #include "core/volume/volume.h"
@@ -100,7 +101,7 @@ class NearbyBricks {
   BrickIndex none() const { return static_cast<BrickIndex>(object_.brick_count()); }
 
   // The index of the brick; none(), the padding brick, if it is not stored.
-  BrickIndex Find(const BrickCoordinates& brick) {
+  ABSL_ATTRIBUTE_ALWAYS_INLINE BrickIndex Find(const BrickCoordinates& brick) {
     Found& found = found_[PlaceFor(brick)];
     const BrickKey key(brick);
     if (found.key != key) {
@@ -112,7 +113,7 @@ class NearbyBricks {
   // As Volume::Contains(): no bricks lie outside the extent, and those at its end have no points
   // outside it. Returns true outside the object's window, if it has one.
   // Needs: a lattice point less than 2^20 units outside the extent.
-  bool Contains(LatticePoint p) {
+  ABSL_ATTRIBUTE_ALWAYS_INLINE bool Contains(LatticePoint p) {
     if (window_.has_value() && !window_->Contains(p)) return true;
     const BrickAddress address = AddressOf(p);
     return object_.padded_bricks()[Find(address.brick)].Test(address.bit);

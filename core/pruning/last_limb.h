@@ -22,7 +22,9 @@ class LastLimb {
   LastLimb(const Volume& object, const SurfaceNoise& noise, const BallIndex& balls)
       : object_(object), noise_(noise), balls_(balls) {}
   // Forgets what was measured of earlier paths.
-  void Forget() { significance_.reset(); }
+  void Forget() {
+    if (significance_.has_value()) significance_->Forget();
+  }
 
   // Position of the limb's first point; `first` if there is no bead. Needs: a path of curve points
   // of `set` whose last point is an end; `first` is a position in it.

@@ -68,6 +68,8 @@ class Significance {
   // stop.
   std::vector<double> OfAll(const ThinSet& set, std::span<const FreeBranch> branches,
                             const exec::Context& context);
+  // Forgets the branches that were measured.
+  void Forget() { verdicts_ = {}; }
   // Uses these balls instead of indexing those of the set at the first use.
   void Share(const BallIndex& balls) { balls_ = balls; }
   // The significance of a branch as the end of a body (IsBodyEnd()), a lower bound of Of(): how far

@@ -7,7 +7,6 @@
 #include <limits>
 #include <numeric>
 #include <queue>
-#include <set>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -263,7 +262,7 @@ class Merger {
   std::vector<OpenEdge> RemainingEdges(Path& changed) const;
   std::vector<uint32_t> KeepNodes();
   void SetEdges(std::vector<OpenEdge> edges);
-  void AddLostPoints(const Path& changed);
+  void AddLostPoints(Path changed);
 
   const double reach_;
   SkeletonGraph& graph_;
@@ -339,13 +338,22 @@ void Merger::SetEdges(std::vector<OpenEdge> edges) {
 }
 
 // Cutting paths short may leave points beside them, which are thick spots now.
-void Merger::AddLostPoints(const Path& changed) {
-  std::set<SkeletonPoint> lost(changed.begin(), changed.end());
+void Merger::AddLostPoints(Path changed) {
+  std::ranges::sort(changed);
+  std::vector<char> stays(changed.size());
+  const auto mark = [&](const SkeletonPoint& p) {
+    const auto [first, last] = std::equal_range(changed.begin(), changed.end(), p);
+    for (auto at = first; at != last; ++at) stays[static_cast<size_t>(at - changed.begin())] = 1;
+  };
   for (const SkeletonPoint& p : graph_.points) {
     if (poll_.Stopped()) return;
-    lost.erase(p);
+    mark(p);
   }
-  for (const SkeletonNode& node : graph_.nodes) lost.erase(node.at);
+  for (const SkeletonNode& node : graph_.nodes) mark(node.at);
+  Path lost;
+  for (size_t n = 0; n < changed.size(); ++n) {
+    if (stays[n] == 0) lost.push_back(changed[n]);
+  }
   if (lost.empty()) return;
   graph_.sheets.insert(graph_.sheets.end(), lost.begin(), lost.end());
   std::ranges::sort(graph_.sheets);
@@ -362,7 +370,7 @@ void Merger::Rebuild() {
     edge.target = place[edge.target];
   }
   SetEdges(std::move(edges));
-  AddLostPoints(changed);
+  AddLostPoints(std::move(changed));
 }
 
 }  // namespace
