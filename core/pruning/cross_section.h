@@ -1,6 +1,7 @@
 #ifndef BCCSKEL_CORE_PRUNING_CROSS_SECTION_H_
 #define BCCSKEL_CORE_PRUNING_CROSS_SECTION_H_
 
+#include <algorithm>
 #include <array>
 
 #include "core/distance/places.h"
@@ -32,6 +33,9 @@ struct CrossSection {
   double half_width = 0;         // the mean of the two sides of that line
   // Of a wall, the radius of the circle inscribed in it; else `radius`. 0: not known yet.
   double inscribed = 0;
+
+  // By how much the object is wider than the radius.
+  double WiderThanThick() const { return std::max(half_width - radius, 0.0); }
 };
 
 // Measures how wide the object is across a branch, by lines that end where they leave it.

@@ -42,11 +42,6 @@ size_t FirstOwnPlace(const ThinSet& set, const BranchPath& path, const Run& run)
   return std::min(FirstPlaceOutside(set, path, run), Significance::kPlaces - 1);
 }
 
-// By how much the object is wider than the radius.
-double WiderThanThick(const CrossSection& section) {
-  return std::max(section.half_width - section.radius, 0.0);
-}
-
 // The median of the values from `place` on.
 double MedianFrom(std::array<double, Significance::kPlaces> values, size_t place) {
   const auto first = values.begin() + static_cast<std::ptrdiff_t>(place);
@@ -143,7 +138,7 @@ double Significance::OfBodyEnd(const ThinSet& set, const FreeBranch& branch, dou
       PlaceOf(p, scale_), DirectionAt(branch.points, middle, scale_), set.RadiusOf(p), kLongestRay);
   sections_.Refine(kLongestRay, section);
   const Run outer_half = {.from = middle, .to = branch.points.size()};
-  return out / (radius + kWidthShare * WiderThanThick(section)) *
+  return out / (radius + kWidthShare * section.WiderThanThick()) *
          UncoveredShare(set, branch, outer_half);
 }
 
@@ -271,19 +266,20 @@ double Significance::ValueOf(const ThinSet& set, const BranchPath& path, const R
   const double radius = path.radii[run.from], out = noise_.Beyond(run.elongation, radius, along);
   const double reach = std::min(kLongestRay, out / (kWidthShare * kLeastRatio) + 2 * radius + 4);
   Sections sections = SectionsAcross(path, run, reach);
-  const CrossSection& near_tip = sections[kNearTip];
-  const double width_near_tip = near_tip.radius + WiderThanThick(near_tip);
-  std::vector<Part> parts = PartsOf(set, path, run, sections);
+  const double width_near_tip = sections[kNearTip].radius + sections[kNearTip].WiderThanThick();
+  std::vector<Part> parts = PartsOf(set, path, run);
+  const size_t first_own = FirstOwnPlace(set, path, run);
+  const double most = Bound(parts, sections, first_own);
   const double rough = RoughValueOf(parts, sections, width_near_tip);
-  if (rough < kLeastFine || parts.front().bound <= least) return rough;
+  if (rough < kLeastFine || most <= least) return rough;
   for (size_t place = kPlaces; place-- > 0;) {
     sections_.Refine(reach, sections[place]);
     if (place > kPlaces / 2) continue;  // most medians hardly change before
-    parts = PartsOf(set, path, run, sections);
-    if (parts.front().bound <= std::max(least, kLeastFine)) {
+    if (Bound(parts, sections, first_own) <= std::max(least, kLeastFine)) {
       return RoughValueOf(parts, sections, width_near_tip);
     }
   }
+  std::ranges::sort(parts, std::greater<>(), &Part::bound);
   double value = least;
   for (const Part& part : parts) {
     if (part.bound <= value) break;
@@ -306,25 +302,33 @@ double Significance::RoughValueOf(const std::vector<Part>& parts, const Sections
 }
 
 std::vector<Significance::Part> Significance::PartsOf(const ThinSet& set, const BranchPath& path,
-                                                      const Run& run,
-                                                      const Sections& sections) const {
-  std::array<double, kPlaces> wider;
-  std::ranges::transform(sections, wider.begin(), WiderThanThick);
-  const size_t first_own = FirstOwnPlace(set, path, run);
+                                                      const Run& run) {
   std::vector<Part> parts;
-  parts.reserve(kRoots * kPlaces);
   for (size_t root = 0; root < kRoots; ++root) {
-    const double median = MedianFrom(wider, std::max(root, first_own));
+    const LatticePoint from = path.points[PlaceIn(run, root)];
     for (size_t tip = root + 1; tip < kPlaces; ++tip) {
-      const LatticePoint from = path.points[PlaceIn(run, root)];
       const LatticePoint to = path.points[PlaceIn(run, tip)];
-      Part& part =
-          parts.emplace_back(Part{root, tip, set.Way(from, to), set.Between(from, to), median, 0});
-      part.bound = ValueOf(part, sections, -std::numeric_limits<double>::infinity());
+      parts.push_back({root, tip, set.Way(from, to), set.Between(from, to), 0, 0});
     }
   }
-  std::ranges::sort(parts, std::greater<>(), &Part::bound);
   return parts;
+}
+
+double Significance::Bound(std::vector<Part>& parts, const Sections& sections,
+                           size_t first_own) const {
+  std::array<double, kPlaces> wider;
+  std::ranges::transform(sections, wider.begin(), &CrossSection::WiderThanThick);
+  std::array<double, kRoots> medians;
+  for (size_t root = 0; root < kRoots; ++root) {
+    medians[root] = MedianFrom(wider, std::max(root, first_own));
+  }
+  double most = kNone;
+  for (Part& part : parts) {
+    part.wider = medians[part.root];
+    part.bound = ValueOf(part, sections, kNone);
+    most = std::max(most, part.bound);
+  }
+  return most;
 }
 
 double Significance::ValueOf(const Part& part, const Sections& sections, double narrower) const {

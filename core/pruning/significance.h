@@ -133,9 +133,10 @@ class Significance {
   double ValueAtMost(const ThinSet& set, const BranchPath& path, const Run& run) const;
   double UncoveredShare(const ThinSet& set, const FreeBranch& branch, const Run& run);
   Sections SectionsAcross(const BranchPath& path, const Run& run, double reach);
-  // Those with the largest bounds first.
-  std::vector<Part> PartsOf(const ThinSet& set, const BranchPath& path, const Run& run,
-                            const Sections& sections) const;
+  // The parts of the run, without widths and bounds.
+  static std::vector<Part> PartsOf(const ThinSet& set, const BranchPath& path, const Run& run);
+  // Sets their widths and bounds; returns the largest bound. `first_own`: widths count from there.
+  double Bound(std::vector<Part>& parts, const Sections& sections, size_t first_own) const;
   // `narrower`: by how much the object becomes narrower along the part.
   double ValueOf(const Part& part, const Sections& sections, double narrower) const;
 
