@@ -34,11 +34,12 @@ ThinSet ThinSet::Over(const ThinSet& below) {
 
 std::vector<ThinSet::Change> ThinSet::TakeChanges() {
   std::vector<Change> changes;
-  changes.reserve(points_.size());
-  points_.ForEach([&](LatticePoint p, const Entry& after) {
+  points_.ForEach([&](LatticePoint p, const Entry& now) {
     const Entry* before = below_->points_.Find(p);
-    const bool gone = before == nullptr;
-    changes.push_back({p, gone ? below_->NeighborsAround(p) : before->neighbors, gone, after});
+    const bool was_there = before != nullptr, is_there = !now.gone;
+    if (was_there == is_there && (!is_there || before->radius == now.radius)) return;
+    const NeighborMask neighbors = was_there ? before->neighbors : below_->NeighborsAround(p);
+    changes.push_back({p, neighbors, was_there, is_there, now.radius});
   });
   points_ = {};
   return changes;
@@ -46,16 +47,14 @@ std::vector<ThinSet::Change> ThinSet::TakeChanges() {
 
 bool ThinSet::Apply(std::span<const Change> changes) {
   const bool as_before = std::ranges::all_of(changes, [&](const Change& change) {
-    return change.was_gone == !Contains(change.point) &&
+    return change.was_there == Contains(change.point) &&
            change.neighbors == NeighborsAround(change.point);
   });
   if (!as_before) return false;
   for (const Change& change : changes) {
-    if (!change.after.gone) {
-      points_.Set(change.point, change.after);
-    } else if (!change.was_gone) {
-      points_.Remove(change.point);
-    }
+    if (change.was_there && !change.is_there) Remove(change.point);
+    if (change.was_there && change.is_there) SetRadius(change.point, change.radius);
+    if (!change.was_there) Add(change.point, change.radius);
   }
   return true;
 }

@@ -27,20 +27,14 @@ using PointSet = std::unordered_set<LatticePoint, LatticePointHash>;
 // The points of a skeleton while branches are removed and tips move, each with its radius, its
 // birth and its neighbors in the set.
 class ThinSet {
-  struct Entry {
-    float radius = 0;
-    int32_t birth = 0;
-    NeighborMask neighbors = 0;
-    bool gone = false;  // not in the set, unlike in the one below
-  };
-
  public:
   // What became of a point of a set made by Over().
   struct Change {
     LatticePoint point;
     NeighborMask neighbors = 0;  // before, whether or not the point was in the set
-    bool was_gone = false;
-    Entry after;
+    bool was_there = false;
+    bool is_there = false;
+    float radius = 0;  // now, if it is there
   };
 
   // Empty or incomplete if the context requests a stop.
@@ -49,7 +43,8 @@ class ThinSet {
   // changes of one set. Needs: `below` outlives it and does not change. Members that count, list or
   // visit all points are not for such a set.
   static ThinSet Over(const ThinSet& below);
-  // Returns what changed in a set made by Over(), in any order, and forgets it.
+  // Returns the points that came, went or got another radius in a set made by Over(), in any order,
+  // and forgets them.
   std::vector<Change> TakeChanges();
   // Makes these changes, unless one of the points has come or gone since, or a neighbor of one.
   // Returns whether it did.
@@ -103,6 +98,13 @@ class ThinSet {
   ThinSkeleton ToSkeleton(const ThinSkeleton& like) const;
 
  private:
+  struct Entry {
+    float radius = 0;
+    int32_t birth = 0;
+    NeighborMask neighbors = 0;
+    bool gone = false;  // not in the set, unlike in the one below
+  };
+
   explicit ThinSet(const AxisScale& scale) : scale_(scale) {}
 
   // Null if the point is not in the set.
