@@ -214,10 +214,12 @@ void GrowBodyEnds(ThinSet& set, const PrunedObject& in, TipDepths& depths,
       grown[mine.begin] = trial.GrowAt(junctions[mine.begin]);
     }
   });
-  BodyEnds ends(set, in, depths.firm, significance, threshold);
+  std::optional<BodyEnds> ends;
   for (size_t n = 0; n < junctions.size(); ++n) {
     if (context.ShouldStop()) return;
-    if (!set.Apply(grown[n])) ends.GrowAt(junctions[n]);
+    if (set.Apply(grown[n])) continue;
+    if (!ends.has_value()) ends.emplace(set, in, depths.firm, significance, threshold);
+    ends->GrowAt(junctions[n]);
   }
 }
 
