@@ -307,33 +307,37 @@ std::vector<BorderTips::Crossing> BorderTips::Crossings(const ThinSet& set) cons
   return crossings;
 }
 
-// Hardly any crossing gets a branch, so each is first tried as if no other did.
+bool BorderTips::Cut::HasOneOf(std::span<const LatticePoint> ends, const ThinSet& set) const {
+  return std::ranges::any_of(ends,
+                             [&](LatticePoint end) { return set.Between(end, middle) <= radius; });
+}
+
+// Each crossing is tried as if no other got a branch; of several that lead to one cut, the first
+// does.
 void BorderTips::AddBranches(ExactRadius& radius, ThinSet& set, PointsByAxis& added,
                              const exec::Context& context) {
   constexpr size_t kAtOnce = 4;
   const auto may_add = [&](LatticePoint p) { return bricks_.Contains(p); };
-  std::vector<LatticePoint> ends = set.Ends();
+  const std::vector<LatticePoint> ends = set.Ends();
   const std::vector<Crossing> crossings = Crossings(set);
-  std::vector<char> may_get_one(crossings.size());
+  std::vector<std::optional<NewBranch>> branches(crossings.size());
   exec::Portions portions(crossings.size(), kAtOnce);
   context.Offer(context.WorkersFor(crossings.size(), kWork), [&](int) {
     BorderTips own = *this;
     for (exec::Share mine = portions.Take(); mine.begin < mine.end; mine = portions.Take()) {
       if (context.ShouldStop()) return;
       for (size_t n = mine.begin; n < mine.end; ++n) {
-        may_get_one[n] = own.BranchFrom(crossings[n], ends, set).has_value() ? 1 : 0;
+        branches[n] = own.BranchFrom(crossings[n], ends, set);
       }
     }
   });
-  for (size_t n = 0; n < crossings.size(); ++n) {
-    if (may_get_one[n] == 0) continue;
-    const Crossing& crossing = crossings[n];
-    const std::optional<NewBranch> branch = BranchFrom(crossing, ends, set);
-    if (!branch.has_value()) continue;
+  std::vector<LatticePoint> new_ends;
+  for (const std::optional<NewBranch>& branch : branches) {
+    if (!branch.has_value() || branch->cut.HasOneOf(new_ends, set)) continue;
     std::vector<LatticePoint> path = {branch->from};
     if (!GrowAlong(branch->way.places, 0, may_add, path, set)) continue;
     for (size_t n = 1; n < path.size(); ++n) set.SetRadius(path[n], radius.At(path[n]));
-    ends.push_back(path.back());
+    new_ends.push_back(path.back());
     std::vector<LatticePoint>& of_axis = added[branch->way.axis];
     of_axis.insert(of_axis.end(), path.begin() + 1, path.end());
   }
@@ -363,21 +367,23 @@ std::optional<BorderTips::NewBranch> BorderTips::BranchFrom(const Crossing& cros
   const std::optional<Coordinates> middle = MiddleOfCut(face, *limb);
   if (!middle.has_value()) return std::nullopt;
   const double wide = RadiusOf(limb->last.area);
-  const auto way_to = [&](LatticePoint other) { return set.Between(other, *middle); };
-  const bool has_end =
-      std::ranges::any_of(ends, [&](LatticePoint end) { return way_to(end) <= kTrunkWide * wide; });
-  if (has_end) return std::nullopt;
+  const Cut cut = {*middle, kTrunkWide * wide};
+  if (cut.HasOneOf(ends, set)) return std::nullopt;
+  const auto square_to = [&](LatticePoint other) {
+    const Coordinates way = Sum(PlaceOf(other, scale_), -1, *middle);
+    return Dot(way, way);
+  };
   LatticePoint nearest = p;
-  double least = way_to(p);
+  double least = square_to(p);
   set.ForEachPoint([&](LatticePoint other) {
-    const double way = way_to(other);
-    if (way > least || (way == least && nearest < other)) return;
+    const double square = square_to(other);
+    if (square > least || (square == least && nearest < other)) return;
     nearest = other;
-    least = way;
+    least = square;
   });
-  if (least < kLeastBranch * wide) return std::nullopt;
+  if (std::sqrt(least) < kLeastBranch * wide) return std::nullopt;
   limb->start = PlaceOf(nearest, scale_);
-  return NewBranch{nearest, StraightTo(*middle, face, *limb)};
+  return NewBranch{nearest, StraightTo(*middle, face, *limb), cut};
 }
 
 }  // namespace bccskel

@@ -52,9 +52,17 @@ class BorderTips {
                    const exec::Context& context);
 
  private:
+  // Where the border cuts a limb off.
+  struct Cut {
+    Coordinates middle = {};
+    double radius = 0;  // of the part around the middle in which one curve is enough
+
+    bool HasOneOf(std::span<const LatticePoint> ends, const ThinSet& set) const;
+  };
   struct NewBranch {
     LatticePoint from;
     Way way;
+    Cut cut;
   };
   struct Face {
     size_t axis = 0;
