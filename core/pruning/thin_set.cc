@@ -37,7 +37,8 @@ std::vector<ThinSet::Change> ThinSet::TakeChanges() {
   points_.ForEach([&](LatticePoint p, const Entry& now) {
     const Entry* before = below_->points_.Find(p);
     const bool was_there = before != nullptr, is_there = !now.gone;
-    if (was_there == is_there && (!is_there || before->radius == now.radius)) return;
+    const bool same = was_there && is_there && before->neighbors == now.neighbors;
+    if ((!was_there && !is_there) || (same && before->radius == now.radius)) return;
     const NeighborMask neighbors = was_there ? before->neighbors : below_->NeighborsAround(p);
     changes.push_back({p, neighbors, was_there, is_there, now.radius});
   });

@@ -43,11 +43,11 @@ class ThinSet {
   // changes of one set. Needs: `below` outlives it and does not change. Members that count, list or
   // visit all points are not for such a set.
   static ThinSet Over(const ThinSet& below);
-  // Returns the points that came, went or got another radius in a set made by Over(), in any order,
-  // and forgets them.
+  // Returns the points that came, went, or got other neighbors or another radius in a set made by
+  // Over(), in any order, and forgets them.
   std::vector<Change> TakeChanges();
-  // Makes these changes, unless one of the points has come or gone since, or a neighbor of one.
-  // Returns whether it did.
+  // Makes these changes, unless one of the points has come or gone since, or a neighbor of one, so
+  // that of two tips that meet at one point only one is applied. Returns whether it did.
   bool Apply(std::span<const Change> changes);
 
   const AxisScale& scale() const { return scale_; }
