@@ -79,11 +79,13 @@ absl::StatusOr<uint64_t> File::Size() const {
 }
 
 absl::StatusOr<std::string> File::ReadAt(uint64_t offset, size_t size) const {
-  std::string bytes(size, '\0');
+  BCCSKEL_ASSIGN_OR_RETURN(const uint64_t end, Size());
+  // A damaged file may name any size.
+  std::string bytes(std::min<uint64_t>(size, end - std::min(end, offset)), '\0');
   size_t done = 0;
-  while (done < size) {
+  while (done < bytes.size()) {
     const ssize_t got =
-        pread(fd(), bytes.data() + done, size - done, static_cast<off_t>(offset + done));
+        pread(fd(), bytes.data() + done, bytes.size() - done, static_cast<off_t>(offset + done));
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) return Failed("read", path_);
     if (got == 0) break;

@@ -38,7 +38,7 @@ class File {
   bool is_open() const { return descriptor_.is_open(); }
 
   absl::StatusOr<uint64_t> Size() const;
-  // Yields fewer bytes only at the end of the file.
+  // Yields fewer bytes only at the end of the file, and allocates no more than there are.
   absl::StatusOr<std::string> ReadAt(uint64_t offset, size_t size) const;
   absl::Status WriteAt(uint64_t offset, std::string_view bytes);
   absl::Status Truncate(uint64_t size);
