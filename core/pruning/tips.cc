@@ -1,9 +1,11 @@
 #include "core/pruning/tips.h"
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
 #include "core/pruning/border_tips.h"
+#include "core/pruning/branch_walk.h"
 #include "core/pruning/tip_placer.h"
 
 namespace bccskel {
@@ -32,6 +34,18 @@ class TipTrial {
   DepthsOfWorker depths_;
   TipPlacer placer_;
 };
+
+// The other end of a path that was led to the border. There its curve is straight now, which shows
+// the way of the limb at the other end, too.
+std::optional<LatticePoint> OtherEnd(const TipTrial::Placed& placed, LatticePoint end,
+                                     const ThinSet& set) {
+  const auto none = [](const std::vector<LatticePoint>& points) { return points.empty(); };
+  if (std::ranges::all_of(placed.at_border, none) || !set.Contains(end) || !set.IsEnd(end)) {
+    return std::nullopt;
+  }
+  const FreeBranch branch = BranchFrom(set, end);
+  return branch.junction.has_value() ? std::nullopt : std::optional(branch.points.back());
+}
 
 void Append(const PointsByAxis& more, PointsByAxis& points) {
   for (size_t axis = 0; axis < points.size(); ++axis) {
@@ -62,11 +76,14 @@ absl::StatusOr<PointsByAxis> PlaceTips(ThinSet& set, const PrunedObject& in, Tip
     }
   });
   PointsByAxis at_border;
+  PointSet anew;  // the other ends of paths that were led to the border
   std::optional<TipPlacer> placer;
   for (size_t n = 0; n < ends.size(); ++n) {
     if (context.ShouldStop()) return context.StopStatus();
-    if (set.Apply(placed[n].changes)) {
+    const std::optional<LatticePoint> other = OtherEnd(placed[n], ends[n], set);
+    if (!anew.contains(ends[n]) && set.Apply(placed[n].changes)) {
       Append(placed[n].at_border, at_border);
+      if (other.has_value()) anew.insert(*other);
       continue;
     }
     if (!placer.has_value()) placer.emplace(set, task, depths);
