@@ -23,7 +23,7 @@ class JobsTest(harness.TestCase):
         """A job behind others, new to the server, that keep its one thread for seconds."""
         large = self.generate("torus", 8_000_000, "large.bccb")
         small = self.generate("torus")
-        for n in range(3):
+        for n in range(8):
             self.submit_file(server, large, "--shell-width", first_width + n / 8)
         return self.submit_file(server, small)
 
