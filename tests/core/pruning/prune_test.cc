@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <random>
 #include <span>
 #include <string>
 #include <tuple>
@@ -12,6 +14,7 @@
 
 #include "core/distance/exact_radius.h"
 #include "core/import/shapes/shapes.h"
+#include "core/mask/mask_converter.h"
 #include "core/pipeline/skeletonize.h"
 #include "core/thinning/thinning.h"
 #include "tests/core/pruning/simple_noise.h"
@@ -116,6 +119,54 @@ TEST(Pruning, IsTheSameForAnyThreadCount) {
     const auto result = Skeletonize(object, options, context);
     EXPECT_EQ(result->sha256, expected->sha256);
     EXPECT_EQ(levels_of(result->graph), levels_of(expected->graph));
+  }
+}
+
+// Straight tubes through an image, with rough surfaces.
+Volume TubesThroughImage(uint64_t seed) {
+  constexpr int32_t kEdge = 40;
+  constexpr int kTubes = 12;
+  constexpr double kRadius = 3;
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> place(0, kEdge), way(-1, 1), noise(-0.3, 0.3);
+  std::vector<std::array<WorldPoint, 2>> tubes(kTubes);
+  for (auto& [from, along] : tubes) {
+    from = {place(random), place(random), place(random)};
+    along = {way(random), way(random), way(random)};
+  }
+  absl::StatusOr<MaskConverter> converter = MaskConverter::Create({kEdge, kEdge, kEdge, {}}, {});
+  for (int32_t z = 0; z < kEdge; ++z) {
+    std::vector<uint64_t> rows(kEdge);
+    for (int32_t y = 0; y < kEdge; ++y) {
+      for (int32_t x = 0; x < kEdge; ++x) {
+        const double radius = kRadius + noise(random);
+        const bool inside = std::ranges::any_of(tubes, [&](const auto& tube) {
+          const auto& [from, along] = tube;
+          const WorldPoint to = {x - from[0], y - from[1], z - from[2]};
+          return Dot(to, to) - Dot(to, along) * Dot(to, along) / Dot(along, along) <
+                 radius * radius;
+        });
+        if (inside) rows[static_cast<size_t>(y)] |= uint64_t{1} << x;
+      }
+    }
+    EXPECT_TRUE(converter->AddSlice(rows, {}).ok());
+  }
+  return std::move(*converter).Finish()->volume;
+}
+
+TEST(Pruning, OfLimbsThatTheBorderCutsIsTheSameForAnyThreadCount) {
+  SkeletonizeOptions options;
+  options.source = ObjectSource::kVoxels;
+  for (uint64_t seed = 1; seed <= 3; ++seed) {
+    const Volume object = TubesThroughImage(seed);
+    const auto expected = Skeletonize(object, options, {});
+    ASSERT_TRUE(expected.ok()) << expected.status();
+    EXPECT_EQ(expected->certificate.skeleton, expected->certificate.input);
+    EXPECT_GE(EndsOf(expected->graph), 5u);
+    for (int threads : {2, 3}) {
+      test::TeamContext context(threads);
+      EXPECT_EQ(Skeletonize(object, options, context)->sha256, expected->sha256) << seed;
+    }
   }
 }
 
