@@ -25,7 +25,8 @@ namespace bccskel {
 //         the object's surface.
 // Does:   each tip is placed as if it were the first, by whichever worker is free; tips that would
 //         change the same points, such as those of two limbs that touch, are placed one after the
-//         other. So the result does not depend on the number of threads.
+//         other, and so are the ends of a path of which one was led to the border. So the result
+//         does not depend on the number of threads.
 // `meanwhile`: work that one of the workers does at the same time. It must not change the set.
 // Returns the points of curves that were led to the middles of such cuts.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
