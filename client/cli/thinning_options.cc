@@ -135,10 +135,10 @@ void AddBorder(CLI::App& command, Border& border) {
   AddChoice<Border>(
       command, "--border", border,
       "What lies beyond the border of an image or a volume: background, with the curves of limbs "
-      "that an image cuts off led to the middle of the cut (ends, default), or unknown, for stacks "
-      "that show little of their limbs (continues); across an image of one slice the object always "
-      "continues",
-      Choices(std::span(kBorderWords).first<2>()));
+      "that an image cuts off led to the middle of the cut (ends), unknown (continues), or unknown "
+      "beyond the faces of an image that cut limbs off and background beyond the others (auto, "
+      "default); across an image of one slice the object always continues",
+      Choices(std::span(kBorderWords).first<3>()));
 }
 
 // Refuses options of what a skeleton does not have, also with their defaults: whoever states one

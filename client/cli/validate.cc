@@ -64,7 +64,7 @@ absl::Status CheckObject(const std::string& input, const VoxelizeOptions& grid,
 }
 
 absl::Status CheckBorder(const SkeletonizeArguments& arguments) {
-  if (arguments.skeletonize.border == Border::kEnds) return absl::OkStatus();
+  if (arguments.skeletonize.border != Border::kContinues) return absl::OkStatus();
   const absl::StatusOr<InputKind> kind = InputKindOf(arguments.input, arguments.image);
   if (!kind.ok() || *kind != InputKind::kMesh) return absl::OkStatus();
   return absl::InvalidArgumentError("--border is for images and volumes; " + arguments.input +

@@ -47,6 +47,7 @@ class DistanceField {
   // For chamfer distances only.
   const ChamferWeights& weights() const { return weights_; }
   const Values& values() const { return values_; }
+  Values TakeValues() && { return std::move(values_); }
 
   // A number that increases with the distance: its counts, its square, or the bits of the float
   // that holds the square. Equal if and only if the distances are equal.

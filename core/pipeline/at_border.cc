@@ -11,8 +11,10 @@
 #include "core/distance/exact_radius.h"
 #include "core/exec/status_macros.h"
 #include "core/lattice/lattice_point_hash.h"
+#include "core/pipeline/canonical_options.h"
 #include "core/pipeline/skeletonize_within.h"
 #include "core/prepare/beyond_border.h"
+#include "core/pruning/cut_faces.h"
 #include "core/skeleton/voxel_radii.h"
 
 namespace bccskel {
@@ -90,9 +92,16 @@ std::optional<LatticeBox> ImageThatCuts(const LatticeExtent& extent,
                                         const SkeletonizeOptions& options) {
   const bool continues = options.border == Border::kContinues;
   if (!continues && !IsConverted(options.source)) return std::nullopt;
-  AxesAcross axes = kAllAxes;
-  if (const auto slice = AxisOfOneSlice(extent, options)) axes[*slice] = false;
-  return WindowOf(extent, LastPointsOf(options.source), axes);
+  ImageFaces faces = kAllFaces;
+  if (const auto slice = AxisOfOneSlice(extent, options)) faces[*slice] = {false, false};
+  return WindowOf(extent, LastPointsOf(options.source), faces);
+}
+
+absl::StatusOr<ImageFaces> FacesThatCut(const Volume& object, const SkeletonizeOptions& options,
+                                        exec::MemoryBudget& memory, const exec::Context& context) {
+  if (!IsConverted(options.source) || !HasCurves(options.thinning)) return kNoFaces;
+  const LatticeBox image = WindowOf(object.extent(), LastPointsOf(options.source), kAllFaces);
+  return FacesThatCutLimbs(object, image, CellsPerVoxel(options.source), memory, context);
 }
 
 absl::Status MeasureAtBorder(const Volume& object, const SkeletonizeOptions& options,
@@ -106,11 +115,11 @@ absl::Status MeasureAtBorder(const Volume& object, const SkeletonizeOptions& opt
   for (size_t axis = 0; axis < 3; ++axis) {
     if (at_border[axis].empty()) continue;
     const Volume part = PartAround(at_border[axis], reach, object);
-    AxesAcross axes = {};
-    axes[axis] = true;
-    if (const auto slice = AxisOfOneSlice(object.extent(), options)) axes[*slice] = true;
-    BCCSKEL_ASSIGN_OR_RETURN(
-        const Volume space, ContinueBeyondBorder(part, LastPointsOf(options.source), axes, memory));
+    ImageFaces faces = kNoFaces;
+    faces[axis] = {true, true};
+    if (const auto slice = AxisOfOneSlice(object.extent(), options)) faces[*slice] = {true, true};
+    BCCSKEL_ASSIGN_OR_RETURN(const Volume space,
+                             ContinueBeyond(faces, part, LastPointsOf(options.source), memory));
     VolumeBuilder builder(object.extent(), object.placement());
     for (LatticePoint p : at_border[axis]) builder.Add(p);
     BCCSKEL_ASSIGN_OR_RETURN(const Volume points, std::move(builder).Build());

@@ -25,6 +25,12 @@ BorderPoints LastPointsOf(ObjectSource source);
 std::optional<LatticeBox> ImageThatCuts(const LatticeExtent& extent,
                                         const SkeletonizeOptions& options);
 
+// The faces of the image of a mask that cut limbs off; none of other objects, and none for what
+// has no curves.
+// Errors: of the budget, CANCELLED, DEADLINE_EXCEEDED.
+absl::StatusOr<ImageFaces> FacesThatCut(const Volume& object, const SkeletonizeOptions& options,
+                                        exec::MemoryBudget& memory, const exec::Context& context);
+
 // Points of curves that lead to where the border of an image cuts limbs off (BorderTips). The
 // border is no surface of these limbs, although it is background for everything else.
 

@@ -29,7 +29,7 @@ SkeletonizeOptions CanonicalOptions(SkeletonizeOptions options) {
   }
   if (!HasGraphOfCurves(options.thinning)) options.junction_reach = 0;
   options.pruning = WithDefaults(options.pruning);
-  if (options.border == Border::kContinuesAcrossSlice) options.border = Border::kEnds;
+  if (options.border == Border::kContinuesAcrossSlice) options.border = Border::kAuto;
   return options;
 }
 

@@ -44,7 +44,8 @@ inline constexpr Words<ObjectSource, 4> kSourceWords = {
      {"refined-voxels", ObjectSource::kRefinedVoxels},
      {"sampled-voxels", ObjectSource::kSampledVoxels}}};
 // The last one occurs only in results.
-inline constexpr Words<Border, 3> kBorderWords = {{{"ends", Border::kEnds},
+inline constexpr Words<Border, 4> kBorderWords = {{{"auto", Border::kAuto},
+                                                   {"ends", Border::kEnds},
                                                    {"continues", Border::kContinues},
                                                    {"slice", Border::kContinuesAcrossSlice}}};
 inline constexpr Words<PreparingStepKind, 6> kPreparingWords = {

@@ -105,6 +105,7 @@ class Pipeline {
 
   // The whole object replaces the given part.
   absl::StatusOr<SkeletonizeResult> RunByPeeler(Volume& given) && {
+    result_.options.border = Border::kEnds;
     if (options_.preparing.Wanted()) {
       BCCSKEL_ASSIGN_OR_RETURN(Volume prepared, PrepareObject(given));
       BCCSKEL_RETURN_IF_ERROR(PeelAndRun(prepared));
@@ -143,19 +144,23 @@ class Pipeline {
 
   absl::Status LookBeyondBorder(const Volume& object) {
     if (options_.border == Border::kContinues) {
-      BCCSKEL_RETURN_IF_ERROR(ContinueAcross(kAllAxes, object));
+      BCCSKEL_RETURN_IF_ERROR(Continue(kAllFaces, object));
     }
-    const std::optional<size_t> slice = AxisOfOneSlice(object.extent(), options_);
-    if (space_.has_value() || !slice.has_value()) return absl::OkStatus();
-    result_.options.border = Border::kContinuesAcrossSlice;
-    AxesAcross axes = {};
-    axes[*slice] = true;
-    return ContinueAcross(axes, object);
+    if (space_.has_value()) return absl::OkStatus();
+    ImageFaces faces = kNoFaces;
+    if (const auto slice = AxisOfOneSlice(object.extent(), options_)) {
+      result_.options.border = Border::kContinuesAcrossSlice;
+      faces[*slice] = {true, true};
+    } else if (result_.options.border == Border::kAuto) {
+      BCCSKEL_ASSIGN_OR_RETURN(faces, FacesThatCut(object, options_, memory_, context_));
+      if (faces == kNoFaces) result_.options.border = Border::kEnds;
+    }
+    return faces == kNoFaces ? absl::OkStatus() : Continue(faces, object);
   }
 
-  absl::Status ContinueAcross(const AxesAcross& axes, const Volume& object) {
-    BCCSKEL_ASSIGN_OR_RETURN(
-        Volume space, ContinueBeyondBorder(object, LastPointsOf(options_.source), axes, memory_));
+  absl::Status Continue(const ImageFaces& faces, const Volume& object) {
+    BCCSKEL_ASSIGN_OR_RETURN(Volume space,
+                             ContinueBeyond(faces, object, LastPointsOf(options_.source), memory_));
     if (space.window().has_value()) space_.emplace(std::move(space));
     return absl::OkStatus();
   }
@@ -163,6 +168,11 @@ class Pipeline {
   // The volume in which widths and distances are measured.
   const Volume& SpaceOf(const Volume& object) const {
     return space_.has_value() ? *space_ : object;
+  }
+
+  // Whether the object continues beyond faces of the image, other than those across one slice.
+  bool BeyondFaces() const {
+    return space_.has_value() && result_.options.border != Border::kContinuesAcrossSlice;
   }
 
   absl::Status RunIn(const Volume& object) {
@@ -258,7 +268,7 @@ class Pipeline {
 
   absl::Status ThinInField(const Volume& object, DistanceField& distance) {
     BCCSKEL_ASSIGN_OR_RETURN(distance, MeasureDistances(object, options_.distance));
-    if (options_.border == Border::kContinues && HasCurves(thinning_)) {
+    if (BeyondFaces() && HasCurves(thinning_)) {
       cuts_ = FindBorderCuts(SpaceOf(object), object, distance);
       thinning_.keep.insert(thinning_.keep.end(), cuts_.middles.begin(), cuts_.middles.end());
     }

@@ -38,10 +38,14 @@ int32_t CellsPerVoxel(ObjectSource source);
 // What lies beyond the border of the lattice, or of the image from which it was made. Across an
 // image of one slice objects always continue.
 enum class Border : uint8_t {
+  // Of masks: as kContinues beyond the faces that cut limbs off (FacesThatCutLimbs()), as kEnds
+  // beyond the others. Results state kEnds if there are no such faces. Of other objects, and for
+  // skeletons without curves: kEnds.
+  kAuto,
   kEnds,  // background; but curves of limbs of masks that are cut off there lead straight to it
   kContinues,  // unknown: thinning itself leads a limb that is cut off there to the border
   // As kContinues beyond both faces of an image of one slice, background beyond its other borders:
-  // what kEnds means for such an image. Only results state it.
+  // what the others mean for such an image. Only results state it.
   kContinuesAcrossSlice,
 };
 
@@ -61,7 +65,7 @@ struct SkeletonizeOptions {
   // Merges junctions within this many radii of each other; 0 merges none. Only for graphs of
   // curves.
   double junction_reach = kDefaultJunctionReach;
-  Border border = Border::kEnds;
+  Border border = Border::kAuto;
 };
 
 // Errors: INVALID_ARGUMENT, with the value and the limit.

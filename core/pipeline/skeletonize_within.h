@@ -49,7 +49,8 @@ struct PeeledObject {
 using Peeler =
     std::function<absl::StatusOr<PeeledObject>(Volume& object, const ThinningOptions& options)>;
 
-// Skeletonize() with a peeler, which may hold most of the object: the same result. This process
+// Skeletonize() with a peeler, which may hold most of the object: the same result as with
+// Border::kEnds. This process
 // prunes, computes the certificate of the result and traces the graph, all for the whole object.
 // Preparing needs the whole object from the beginning.
 // Errors: as Skeletonize(); those of the peeler; INVALID_ARGUMENT for objects that continue beyond

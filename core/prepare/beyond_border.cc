@@ -58,47 +58,53 @@ Volume PointsBeyond(const Volume& object, const LatticeBox& window, std::vector<
                                   object.placement(), std::move(keys), std::move(bricks));
 }
 
+// Moves the values of the part's points to the front, in place: its bricks are among those of the
+// whole. Returns the largest.
 template <typename Value>
-DistanceField CopyPart(const Volume& part, const Volume& whole, const DistanceField& field,
-                       const exec::UninitializedVector<Value>& from) {
-  exec::UninitializedVector<Value> to((part.brick_count() + 1) * kBrickPoints);
-  std::ranges::fill(to, Value{0});
-  uint32_t largest = 0;
+uint32_t KeepPart(const Volume& part, const Volume& whole,
+                  exec::UninitializedVector<Value>& values) {
+  Value largest = 0;
   for (BrickIndex n = 0; n < part.brick_count(); ++n) {
-    const size_t source = size_t{*whole.Find(part.keys()[n])} * kBrickPoints;
-    part.bricks()[n].ForEachSetBit([&](int bit) {
-      const Value value = from[source + static_cast<size_t>(bit)];
-      to[size_t{n} * kBrickPoints + static_cast<size_t>(bit)] = value;
-      largest = std::max(largest, DistanceField::RankOf(value));
-    });
+    const BrickIndex source = *whole.Find(part.keys()[n]);
+    const Value* from = &values[size_t{source} * kBrickPoints];
+    Value* to = &values[size_t{n} * kBrickPoints];
+    if (source != n) std::copy_n(from, kBrickPoints, to);
+    const BrickBits others = whole.bricks()[source] & ~part.bricks()[n];
+    others.ForEachSetBit([&](int bit) { to[bit] = 0; });
+    for (int bit = 0; bit < kBrickPoints; ++bit) largest = std::max(largest, to[bit]);
   }
-  return DistanceField(field.kind(), field.weights(), std::move(to), largest);
+  values.resize((part.brick_count() + 1) * kBrickPoints);
+  std::fill_n(values.end() - kBrickPoints, kBrickPoints, Value{0});
+  return DistanceField::RankOf(largest);
 }
 
 }  // namespace
 
-LatticeBox WindowOf(const LatticeExtent& extent, BorderPoints border, const AxesAcross& axes) {
+LatticeBox WindowOf(const LatticeExtent& extent, BorderPoints border, const ImageFaces& faces) {
   constexpr int32_t kBeyondAll = 4 * kMaxExtentCells;
   const int32_t last = border == BorderPoints::kLastCorners ? 2 : 1;
-  const auto low = [&](size_t axis) { return axes[axis] ? 0 : -kBeyondAll; };
+  const auto low = [&](size_t axis) { return faces[axis][0] ? 0 : -kBeyondAll; };
   const auto high = [&](size_t axis, int32_t cells) {
-    return axes[axis] ? 2 * cells - last : kBeyondAll;
+    return faces[axis][1] ? 2 * cells - last : kBeyondAll;
   };
   return {{low(0), low(1), low(2)}, {high(0, extent.nx), high(1, extent.ny), high(2, extent.nz)}};
 }
 
 absl::StatusOr<DistanceField> MeasureIn(const Volume& space, const Volume& object,
                                         DistanceKind kind, const exec::Context& context) {
-  BCCSKEL_ASSIGN_OR_RETURN(const DistanceField field, ComputeDistance(space, kind, context));
-  return std::visit([&](const auto& values) { return CopyPart(object, space, field, values); },
-                    field.values());
+  BCCSKEL_ASSIGN_OR_RETURN(DistanceField field, ComputeDistance(space, kind, context));
+  const ChamferWeights weights = field.weights();
+  DistanceField::Values values = std::move(field).TakeValues();
+  const uint32_t largest =
+      std::visit([&](auto& found) { return KeepPart(object, space, found); }, values);
+  return DistanceField(kind, weights, std::move(values), largest);
 }
 
-absl::StatusOr<Volume> ContinueBeyondBorder(const Volume& object, BorderPoints border,
-                                            const AxesAcross& axes, exec::MemoryBudget& memory) {
+absl::StatusOr<Volume> ContinueBeyond(const ImageFaces& faces, const Volume& object,
+                                      BorderPoints border, exec::MemoryBudget& memory) {
   const LatticeExtent& extent = object.extent();
-  if (axes == kAllAxes && object.PointCount() == PointCountOf(extent, border)) return object;
-  const LatticeBox window = WindowOf(extent, border, axes);
+  if (faces == kAllFaces && object.PointCount() == PointCountOf(extent, border)) return object;
+  const LatticeBox window = WindowOf(extent, border, faces);
   std::vector<BrickKey> keys = BricksBeyond(object, window);
   const auto added = static_cast<uint64_t>(
       std::ranges::count_if(keys, [&](BrickKey key) { return !object.Find(key).has_value(); }));

@@ -15,20 +15,21 @@ namespace bccskel {
 // made, whose last corner points lie on its faces.
 enum class BorderPoints : uint8_t { kLastOfLattice, kLastCorners };
 
-// Whether the object continues beyond both faces across x, y and z.
-using AxesAcross = std::array<bool, 3>;
-inline constexpr AxesAcross kAllAxes = {true, true, true};
+// Which faces of an image: the first and the last across x, y and z.
+using ImageFaces = std::array<std::array<bool, 2>, 3>;
+inline constexpr ImageFaces kNoFaces = {};
+inline constexpr ImageFaces kAllFaces = {{{true, true}, {true, true}, {true, true}}};
 
-// The box of the image's outermost points, extended without limit across the other axes.
-LatticeBox WindowOf(const LatticeExtent& extent, BorderPoints border, const AxesAcross& axes);
+// The box of the image's outermost points, extended without limit beyond the other faces.
+LatticeBox WindowOf(const LatticeExtent& extent, BorderPoints border, const ImageFaces& faces);
 
-// Returns the object in the window of its image, with the points beyond the border in its own
-// bricks and the adjacent ones. Across the other axes, background lies beyond the border. If the
-// object continues across all axes, an image without background would be infinitely deep, so the
-// object ends at its border: the result has no window.
+// Returns the object in the window of its image, with the points beyond these faces in its own
+// bricks and the adjacent ones. Beyond the other faces lies background. If the object continues
+// beyond all faces, an image without background would be infinitely deep, so the object ends at its
+// border: the result has no window.
 // Errors: of the budget.
-absl::StatusOr<Volume> ContinueBeyondBorder(const Volume& object, BorderPoints border,
-                                            const AxesAcross& axes, exec::MemoryBudget& memory);
+absl::StatusOr<Volume> ContinueBeyond(const ImageFaces& faces, const Volume& object,
+                                      BorderPoints border, exec::MemoryBudget& memory);
 
 // Measures the distances of the object's points, a subset of `space`, in `space`.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.

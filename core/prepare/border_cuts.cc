@@ -148,7 +148,8 @@ class CutFinder {
       square = std::max(square, Dot(way, way));
     }
     const double depth = DepthAt(middle), wide = std::sqrt(square);
-    if (wide <= kRound * depth + kRoundMargin) return false;
+    const double round = kRound * depth + kRoundMargin;
+    if (wide <= round) return false;
     const double least = kLeastLimb * wide + kLimbMargin;
     const Coordinates inward = Unit(InwardAt(middle, window_));
     const auto [first, second] = Across(inward);
@@ -156,7 +157,8 @@ class CutFinder {
       for (int v = -kRays; v <= kRays; ++v) {
         const Coordinates way =
             Unit(Sum(Sum(inward, 1.0 * u / kRays, first), 1.0 * v / kRays, second));
-        if (IsLimbAlong(from, way, least, depth)) return true;
+        // Seen along a limb that is round, a cut is, too.
+        if (wide * Dot(way, inward) > round && IsLimbAlong(from, way, least, depth)) return true;
       }
     }
     return false;

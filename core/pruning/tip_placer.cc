@@ -42,7 +42,8 @@ TipPlacer::TipPlacer(ThinSet& set, const TipTask& task, TipDepths& depths)
       step_(std::ranges::max(scale_)),
       least_gain_(kGainBySteps * task.noise.step + kGainByNoise * task.noise.thin),
       noise_(task.noise) {
-  if (task.in.image.has_value()) border_tips_.emplace(task.in.object, *task.in.image);
+  if (task.in.image.has_value())
+    border_tips_.emplace(task.in.object, *task.in.image, task.in.WhereDepthsAre().window());
 }
 
 void TipPlacer::Place(LatticePoint end) {

@@ -68,8 +68,9 @@ constexpr std::pair<v1::KeptComponents, KeptComponents> kKeptComponents[] = {
     {v1::KEPT_COMPONENTS_UNSPECIFIED, KeptComponents::kAll},
     {v1::KEPT_COMPONENTS_LARGEST, KeptComponents::kLargest}};
 constexpr std::pair<v1::Border, Border> kBorders[] = {
+    {v1::BORDER_AUTO, Border::kAuto},
+    {v1::BORDER_UNSPECIFIED, Border::kAuto},
     {v1::BORDER_ENDS, Border::kEnds},
-    {v1::BORDER_UNSPECIFIED, Border::kEnds},
     {v1::BORDER_CONTINUES, Border::kContinues},
     {v1::BORDER_CONTINUES_ACROSS_SLICE, Border::kContinuesAcrossSlice}};
 

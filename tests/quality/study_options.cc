@@ -72,8 +72,9 @@ std::map<std::string, Setter> SettersOf(StudyOptions& options) {
        }},
       {"border",
        [&](const std::string& given) {
-         return Choose({{"ends", Border::kEnds}, {"continues", Border::kContinues}}, given,
-                       options.skeleton.border);
+         return Choose(
+             {{"auto", Border::kAuto}, {"ends", Border::kEnds}, {"continues", Border::kContinues}},
+             given, options.skeleton.border);
        }},
       {"preset",
        [&](const std::string& given) { return ApplyPreset(given, options.skeleton).ok(); }},

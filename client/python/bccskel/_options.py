@@ -25,7 +25,7 @@ class SkeletonOptions(TypedDict, total=False):
     pruning: Literal["significance", "length", "relative-length", "persistence", "none"]
     pruning_threshold: float
     tips: Literal["ridge", "as-thinned"]
-    border: Literal["ends", "continues"]
+    border: Literal["auto", "ends", "continues"]
     merge_junctions: float
     method: Literal["directional", "directional-alternating", "symmetric"]
     kind: Literal["curve", "surface", "kernel", "isthmus-curve"]

@@ -121,7 +121,7 @@ absl::StatusOr<Outcome> SkeletonizeMask(ImageSource& mask,
 absl::StatusOr<Outcome> SkeletonizeMesh(const TriangleMesh& mesh,
                                         const cli::SkeletonizeArguments& arguments,
                                         const Run& run) {
-  if (arguments.skeletonize.border != Border::kEnds) {
+  if (arguments.skeletonize.border == Border::kContinues) {
     return absl::InvalidArgumentError("border is for images and volumes, not for a mesh");
   }
   Here here(run);

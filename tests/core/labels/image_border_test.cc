@@ -1,4 +1,4 @@
-// Limbs that the border of an image cuts off, by default.
+// Limbs that the border of an image cuts off.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <utility>
 
 #include "core/labels/convert_label.h"
 #include "tests/core/labels/voxel_figure.h"
@@ -108,9 +109,13 @@ TEST(ImageBorder, ALimbLeadsToItBehindABranch) {
   const MaskGrid grid = {.nx = 70, .ny = 70, .nz = 40};
   const double slope = 0.5, radius = 8;
   const auto axis = [&](double x) { return 22 + slope * (x - 35); };
-  for (const double beside : {4.0, 7.0, 10.0}) {
+  using Case = std::pair<double, Border>;
+  for (const auto& [beside, border] :
+       {Case{4, Border::kEnds}, Case{7, Border::kEnds}, Case{10, Border::kEnds},
+        Case{7, Border::kAuto}, Case{10, Border::kAuto}}) {
     const double branch = 70 - beside;
-    const SkeletonizeResult result = SkeletonOf(grid, {}, {}, [&](const Voxel& at) {
+    const SkeletonizeOptions options = {.border = border};
+    const SkeletonizeResult result = SkeletonOf(grid, options, {}, [&](const Voxel& at) {
       const double x = at[0] + 0.5, y = at[1] + 0.5, z = at[2] + 0.5 - 20;
       const double across = (y - axis(x)) / std::hypot(1, slope);
       return std::hypot(across, z) <= radius ||

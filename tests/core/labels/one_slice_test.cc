@@ -129,7 +129,7 @@ TEST(OneSlice, IsStatedByTheResult) {
   const auto all = [](const Voxel&) { return true; };
   const MaskGrid one = {.nx = 30, .ny = 20, .nz = 1};
   using enum Border;
-  for (const Border border : {kEnds, kContinuesAcrossSlice}) {
+  for (const Border border : {kAuto, kEnds, kContinuesAcrossSlice}) {
     const SkeletonizeOptions options = {.border = border};
     EXPECT_EQ(SkeletonOf(one, options, {}, right).options.border, kContinuesAcrossSlice);
     const MaskGrid two = {.nx = 30, .ny = 20, .nz = 2}, row = {.nx = 30, .ny = 1, .nz = 1};

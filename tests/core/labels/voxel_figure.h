@@ -16,10 +16,9 @@ namespace bccskel::test {
 
 using Voxel = std::array<int32_t, 3>;
 
-// The skeleton of the voxels for which `is_in` returns true.
+// The exact conversion of the voxels for which `is_in` returns true.
 template <typename IsIn>
-SkeletonizeResult SkeletonOf(const MaskGrid& grid, const SkeletonizeOptions& options,
-                             const MaskOptions& mask, const IsIn& is_in) {
+Volume ConversionOf(const MaskGrid& grid, const MaskOptions& mask, const IsIn& is_in) {
   auto converter = *MaskConverter::Create(grid, mask);
   for (int32_t z = 0; z < grid.nz; ++z) {
     std::vector<uint64_t> words(grid.WordsPerSlice());
@@ -33,8 +32,15 @@ SkeletonizeResult SkeletonOf(const MaskGrid& grid, const SkeletonizeOptions& opt
     }
     EXPECT_TRUE(converter.AddSlice(words, {}).ok());
   }
-  const ConvertedMask converted = *std::move(converter).Finish();
-  auto result = Skeletonize(converted.volume, ForMask(options, grid, mask), {});
+  return std::move((*std::move(converter).Finish()).volume);
+}
+
+// And their skeleton.
+template <typename IsIn>
+SkeletonizeResult SkeletonOf(const MaskGrid& grid, const SkeletonizeOptions& options,
+                             const MaskOptions& mask, const IsIn& is_in) {
+  const Volume object = ConversionOf(grid, mask, is_in);
+  auto result = Skeletonize(object, ForMask(options, grid, mask), {});
   EXPECT_TRUE(result.ok()) << result.status();
   return *std::move(result);
 }

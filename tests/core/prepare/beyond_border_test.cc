@@ -47,9 +47,9 @@ Volume NearlyFull(uint64_t seed, LatticeExtent extent, BorderPoints border, Spac
   return *std::move(builder).Build();
 }
 
-Volume Continued(const Volume& object, BorderPoints border, const AxesAcross& axes = kAllAxes) {
+Volume Continued(const Volume& object, BorderPoints border, const ImageFaces& faces = kAllFaces) {
   exec::UnlimitedMemory memory;
-  auto space = ContinueBeyondBorder(object, border, axes, memory);
+  auto space = ContinueBeyond(faces, object, border, memory);
   EXPECT_TRUE(space.ok()) << space.status();
   return *std::move(space);
 }
@@ -62,16 +62,18 @@ DistanceField Measured(const Volume& object, const Volume& space, DistanceKind k
 }
 
 // The box with a cell of what is beyond the faces that the object does not continue across.
-LatticeBox WithOthersAround(LatticeBox box, const AxesAcross& axes) {
-  const LatticePoint cell = {axes[0] ? 0 : 2, axes[1] ? 0 : 2, axes[2] ? 0 : 2};
-  return {box.low - cell, box.high + cell};
+LatticeBox WithOthersAround(LatticeBox box, const ImageFaces& faces) {
+  const auto cell = [&](size_t side) -> LatticePoint {
+    return {faces[0][side] ? 0 : 2, faces[1][side] ? 0 : 2, faces[2][side] ? 0 : 2};
+  };
+  return {box.low - cell(0), box.high + cell(1)};
 }
 
 std::vector<LatticePoint> BackgroundOf(const Volume& object, BorderPoints border,
-                                       const AxesAcross& axes = kAllAxes) {
+                                       const ImageFaces& faces = kAllFaces) {
   const LatticeBox box = BoxOf(object.extent(), border);
   std::vector<LatticePoint> background;
-  ForEachIn(WithOthersAround(box, axes), [&](LatticePoint p) {
+  ForEachIn(WithOthersAround(box, faces), [&](LatticePoint p) {
     if (!box.Contains(p) || !object.Contains(p)) background.push_back(p);
   });
   return background;
@@ -93,25 +95,32 @@ float SquareToNearest(LatticePoint p, const std::vector<LatticePoint>& backgroun
 
 constexpr std::array<LatticeExtent, 6> kExtents = {
     {{20, 9, 11}, {3, 30, 4}, {40, 2, 2}, {17, 5, 9}, {2, 2, 33}, {16, 8, 8}}};
-constexpr std::array<AxesAcross, 5> kAxes = {{kAllAxes,
-                                              {false, false, true},
-                                              {true, false, false},
-                                              {false, true, false},
-                                              {true, false, true}}};
+constexpr std::array<bool, 2> kNone = {false, false}, kBoth = {true, true}, kFirst = {true, false},
+                              kLast = {false, true};
+constexpr std::array<ImageFaces, 10> kFaces = {{kAllFaces,
+                                                {kNone, kNone, kBoth},
+                                                {kBoth, kNone, kNone},
+                                                {kNone, kBoth, kNone},
+                                                {kBoth, kNone, kBoth},
+                                                {kFirst, kNone, kNone},
+                                                {kNone, kNone, kLast},
+                                                {kBoth, kFirst, kNone},
+                                                {kLast, kBoth, kFirst},
+                                                {kLast, kFirst, kLast}}};
 constexpr std::array<BorderPoints, 2> kBorders = {BorderPoints::kLastOfLattice,
                                                   BorderPoints::kLastCorners};
 
 TEST(BeyondBorderLaw, EuclideanDistancesAreThoseToBackgroundOfTheImage) {
-  for (uint64_t seed = 0; seed < 120; ++seed) {
+  for (uint64_t seed = 0; seed < 240; ++seed) {
     const LatticeExtent extent = kExtents[seed % 6];
     const BorderPoints border = kBorders[seed / 6 % 2];
     const Spacing spacing = seed / 12 % 2 == 0 ? Spacing{1, 1, 1} : Spacing{1, 1.3, 2.7};
-    const AxesAcross& axes = kAxes[seed / 24];
+    const ImageFaces& faces = kFaces[seed / 24];
     const Volume object = NearlyFull(seed, extent, border, spacing);
     const DistanceField field =
-        Measured(object, Continued(object, border, axes), DistanceKind::kEuclidean);
+        Measured(object, Continued(object, border, faces), DistanceKind::kEuclidean);
     const AxisScale scale = AxisScaleOf(object.placement());
-    const std::vector<LatticePoint> background = BackgroundOf(object, border, axes);
+    const std::vector<LatticePoint> background = BackgroundOf(object, border, faces);
     object.ForEachPoint([&](LatticePoint p) {
       const float least = SquareToNearest(p, background, scale);
       const BrickAddress at = AddressOf(p);
@@ -127,24 +136,25 @@ TEST(BeyondBorderLaw, EuclideanDistancesAreThoseToBackgroundOfTheImage) {
 
 // Also from points beyond the border, where pruning looks on.
 TEST(BeyondBorderLaw, RadiiAreThoseToBackgroundOfTheImage) {
-  for (uint64_t seed = 0; seed < 120; ++seed) {
+  for (uint64_t seed = 0; seed < 240; ++seed) {
     const BorderPoints border = kBorders[seed / 6 % 2];
     const Spacing spacing = seed / 12 % 2 == 0 ? Spacing{1, 1, 1} : Spacing{1, 1.3, 2.7};
-    const AxesAcross& axes = kAxes[seed / 24];
+    const ImageFaces& faces = kFaces[seed / 24];
     const Volume object = NearlyFull(seed, kExtents[seed % 6], border, spacing);
-    const Volume space = Continued(object, border, axes);
+    const Volume space = Continued(object, border, faces);
     const AxisScale scale = AxisScaleOf(object.placement());
-    std::vector<LatticePoint> background = BackgroundOf(object, border, axes);
+    std::vector<LatticePoint> background = BackgroundOf(object, border, faces);
     ExactRadius radius(space);
     LatticeBox around = BoxOf(object.extent(), border);
-    const LatticePoint out = axes == kAllAxes ? LatticePoint{9, 9, 9} : LatticePoint{0, 0, 0};
+    const LatticePoint out = faces == kAllFaces ? LatticePoint{9, 9, 9} : LatticePoint{0, 0, 0};
     around = {around.low - out, around.high + out};
     ForEachIn(around, [&](LatticePoint p) {
       if ((p.x + 3 * p.y + 5 * p.z) % 7 != 0 || std::ranges::count(background, p) != 0) return;
       const float least = SquareToNearest(p, background, scale);
       ASSERT_NEAR(radius.SquaredAt(p) / least, 1, 1e-6) << seed;
-      // Where only some axes continue, one as near beyond a corner of the window may be found.
-      if (axes == kAllAxes) {
+      // Where it continues beyond some faces only, one as near beyond a corner of the window may be
+      // found.
+      if (faces == kAllFaces) {
         ASSERT_EQ(std::ranges::count(background, radius.nearest()), 1) << seed;
       }
       if (!object.Contains(p)) return;
@@ -178,15 +188,14 @@ TEST(BeyondBorderLaw, DistancesInALargeImageOfFewHolesAreFinite) {
 
 // The image with all points beyond across the axes, farther out than any distance within.
 Volume WithAllAround(const Volume& object, const LatticeBox& box, LatticePoint shift,
-                     const AxesAcross& axes) {
+                     const ImageFaces& faces) {
   const LatticeExtent& extent = object.extent();
   VolumeBuilder builder({extent.nx + shift.x, extent.ny + shift.y, extent.nz + shift.z},
                         object.placement());
   LatticeBox all = {{0, 0, 0}, box.high + shift + shift};
   const auto end = [&](size_t axis, int32_t LatticePoint::*at) {
-    if (axes[axis]) return;
-    all.low.*at = shift.*at;
-    all.high.*at = box.high.*at + shift.*at;
+    if (!faces[axis][0]) all.low.*at = shift.*at;
+    if (!faces[axis][1]) all.high.*at = box.high.*at + shift.*at;
   };
   end(0, &LatticePoint::x);
   end(1, &LatticePoint::y);
@@ -199,17 +208,17 @@ Volume WithAllAround(const Volume& object, const LatticeBox& box, LatticePoint s
 
 TEST(BeyondBorderLaw, ChamferDistancesAreThoseToBackgroundOfTheImage) {
   constexpr LatticePoint kShift = {96, 96, 96};
-  for (uint64_t seed = 0; seed < 18; ++seed) {
+  for (uint64_t seed = 0; seed < 30; ++seed) {
     const LatticeExtent extent = kExtents[seed % 6];
     const BorderPoints border = kBorders[seed / 3 % 2];
-    const AxesAcross& axes = kAxes[seed % 5];
+    const ImageFaces& faces = kFaces[seed % 10];
     const Spacing spacing = seed % 2 == 0 ? Spacing{1, 1, 1} : Spacing{1, 1.3, 1.2};
     const Volume object = NearlyFull(seed, extent, border, spacing);
-    const Volume all = WithAllAround(object, BoxOf(extent, border), kShift, axes);
+    const Volume all = WithAllAround(object, BoxOf(extent, border), kShift, faces);
     const auto expected = ComputeDistance(all, DistanceKind::kChamfer, {});
     ASSERT_TRUE(expected.ok());
     const DistanceField field =
-        Measured(object, Continued(object, border, axes), DistanceKind::kChamfer);
+        Measured(object, Continued(object, border, faces), DistanceKind::kChamfer);
     object.ForEachPoint([&](LatticePoint p) {
       const BrickAddress there = AddressOf(p + kShift), here = AddressOf(p);
       ASSERT_EQ(field.At(*object.Find(BrickKey(here.brick)), here.bit),

@@ -17,8 +17,7 @@ namespace {
 BorderCuts CutsOf(const std::function<bool(double, double, double)>& is_in) {
   const Volume object = test::VolumeWhere({48, 32, 32}, is_in);
   exec::MachineMemory memory;
-  const Volume space =
-      *ContinueBeyondBorder(object, BorderPoints::kLastOfLattice, kAllAxes, memory);
+  const Volume space = *ContinueBeyond(kAllFaces, object, BorderPoints::kLastOfLattice, memory);
   const DistanceField distance = *MeasureIn(space, object, DistanceKind::kEuclidean, {});
   return FindBorderCuts(space, object, distance);
 }
