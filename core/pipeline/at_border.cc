@@ -97,11 +97,24 @@ std::optional<LatticeBox> ImageThatCuts(const LatticeExtent& extent,
   return WindowOf(extent, LastPointsOf(options.source), faces);
 }
 
-absl::StatusOr<ImageFaces> FacesThatCut(const Volume& object, const SkeletonizeOptions& options,
-                                        exec::MemoryBudget& memory, const exec::Context& context) {
-  if (!IsConverted(options.source) || !HasCurves(options.thinning)) return kNoFaces;
-  const LatticeBox image = WindowOf(object.extent(), LastPointsOf(options.source), kAllFaces);
-  return FacesThatCutLimbs(object, image, CellsPerVoxel(options.source), memory, context);
+absl::StatusOr<BeyondFaces> FindFaces(const Volume& object, const SkeletonizeOptions& options,
+                                      Border border, exec::MemoryBudget& memory,
+                                      const exec::Context& context) {
+  const BorderPoints last = LastPointsOf(options.source);
+  const bool has_background = object.PointCount() < PointCountOf(object.extent(), last);
+  if (border == Border::kContinues && has_background) return BeyondFaces{kAllFaces, border};
+  if (const auto slice = AxisOfOneSlice(object.extent(), options)) {
+    BeyondFaces across = {kNoFaces, Border::kContinuesAcrossSlice};
+    across.faces[*slice] = {true, true};
+    return across;
+  }
+  const bool may_cut = IsConverted(options.source) && HasCurves(options.thinning);
+  if (border != Border::kAuto) return BeyondFaces{kNoFaces, border};
+  if (!may_cut) return BeyondFaces();
+  BCCSKEL_ASSIGN_OR_RETURN(const ImageFaces faces,
+                           FacesThatCutLimbs(object, WindowOf(object.extent(), last, kAllFaces),
+                                             CellsPerVoxel(options.source), memory, context));
+  return BeyondFaces{faces, faces == kNoFaces ? Border::kEnds : border};
 }
 
 absl::Status MeasureAtBorder(const Volume& object, const SkeletonizeOptions& options,

@@ -25,11 +25,16 @@ BorderPoints LastPointsOf(ObjectSource source);
 std::optional<LatticeBox> ImageThatCuts(const LatticeExtent& extent,
                                         const SkeletonizeOptions& options);
 
-// The faces of the image of a mask that cut limbs off; none of other objects, and none for what
-// has no curves.
+// Beyond which faces of its image the object continues, and how results state it. `border` is that
+// of CanonicalOptions().
 // Errors: of the budget, CANCELLED, DEADLINE_EXCEEDED.
-absl::StatusOr<ImageFaces> FacesThatCut(const Volume& object, const SkeletonizeOptions& options,
-                                        exec::MemoryBudget& memory, const exec::Context& context);
+struct BeyondFaces {
+  ImageFaces faces = kNoFaces;
+  Border stated = Border::kEnds;
+};
+absl::StatusOr<BeyondFaces> FindFaces(const Volume& object, const SkeletonizeOptions& options,
+                                      Border border, exec::MemoryBudget& memory,
+                                      const exec::Context& context);
 
 // Points of curves that lead to where the border of an image cuts limbs off (BorderTips). The
 // border is no surface of these limbs, although it is background for everything else.

@@ -143,24 +143,13 @@ class Pipeline {
   }
 
   absl::Status LookBeyondBorder(const Volume& object) {
-    if (options_.border == Border::kContinues) {
-      BCCSKEL_RETURN_IF_ERROR(Continue(kAllFaces, object));
-    }
-    if (space_.has_value()) return absl::OkStatus();
-    ImageFaces faces = kNoFaces;
-    if (const auto slice = AxisOfOneSlice(object.extent(), options_)) {
-      result_.options.border = Border::kContinuesAcrossSlice;
-      faces[*slice] = {true, true};
-    } else if (result_.options.border == Border::kAuto) {
-      BCCSKEL_ASSIGN_OR_RETURN(faces, FacesThatCut(object, options_, memory_, context_));
-      if (faces == kNoFaces) result_.options.border = Border::kEnds;
-    }
-    return faces == kNoFaces ? absl::OkStatus() : Continue(faces, object);
-  }
-
-  absl::Status Continue(const ImageFaces& faces, const Volume& object) {
-    BCCSKEL_ASSIGN_OR_RETURN(Volume space,
-                             ContinueBeyond(faces, object, LastPointsOf(options_.source), memory_));
+    BCCSKEL_ASSIGN_OR_RETURN(
+        const BeyondFaces beyond,
+        FindFaces(object, options_, result_.options.border, memory_, context_));
+    result_.options.border = beyond.stated;
+    if (beyond.faces == kNoFaces) return absl::OkStatus();
+    BCCSKEL_ASSIGN_OR_RETURN(
+        Volume space, ContinueBeyond(beyond.faces, object, LastPointsOf(options_.source), memory_));
     if (space.window().has_value()) space_.emplace(std::move(space));
     return absl::OkStatus();
   }
@@ -168,11 +157,6 @@ class Pipeline {
   // The volume in which widths and distances are measured.
   const Volume& SpaceOf(const Volume& object) const {
     return space_.has_value() ? *space_ : object;
-  }
-
-  // Whether the object continues beyond faces of the image, other than those across one slice.
-  bool BeyondFaces() const {
-    return space_.has_value() && result_.options.border != Border::kContinuesAcrossSlice;
   }
 
   absl::Status RunIn(const Volume& object) {
@@ -268,7 +252,7 @@ class Pipeline {
 
   absl::Status ThinInField(const Volume& object, DistanceField& distance) {
     BCCSKEL_ASSIGN_OR_RETURN(distance, MeasureDistances(object, options_.distance));
-    if (BeyondFaces() && HasCurves(thinning_)) {
+    if (result_.options.border != Border::kContinuesAcrossSlice && HasCurves(thinning_)) {
       cuts_ = FindBorderCuts(SpaceOf(object), object, distance);
       thinning_.keep.insert(thinning_.keep.end(), cuts_.middles.begin(), cuts_.middles.end());
     }

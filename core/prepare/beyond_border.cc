@@ -18,12 +18,6 @@ constexpr uint64_t kBytesPerBrick = 5120;
 // Memory per other brick: bits and neighbors. The object has distances for them anyway.
 constexpr uint64_t kBytesPerCopiedBrick = 256;
 
-uint64_t PointCountOf(const LatticeExtent& extent, BorderPoints border) {
-  if (border == BorderPoints::kLastOfLattice) return extent.PointCount();
-  const LatticeExtent corners = extent, voxels = {extent.nx - 1, extent.ny - 1, extent.nz - 1};
-  return (corners.PointCount() + voxels.PointCount()) / 2;
-}
-
 // The object's bricks and adjacent ones that have points beyond the window.
 std::vector<BrickKey> BricksBeyond(const Volume& object, const LatticeBox& window) {
   std::vector<BrickKey> keys;
@@ -79,6 +73,12 @@ uint32_t KeepPart(const Volume& part, const Volume& whole,
 }
 
 }  // namespace
+
+uint64_t PointCountOf(const LatticeExtent& extent, BorderPoints border) {
+  if (border == BorderPoints::kLastOfLattice) return extent.PointCount();
+  const LatticeExtent corners = extent, voxels = {extent.nx - 1, extent.ny - 1, extent.nz - 1};
+  return (corners.PointCount() + voxels.PointCount()) / 2;
+}
 
 LatticeBox WindowOf(const LatticeExtent& extent, BorderPoints border, const ImageFaces& faces) {
   constexpr int32_t kBeyondAll = 4 * kMaxExtentCells;

@@ -169,7 +169,8 @@ class ViewTest(PageTestCase):
     def test_pruning_counts_what_another_run_counts_on_real_objects(self):
         objects = [(harness.DATA / "mesh" / name, ["--points", 60000])
                    for name in ("armadillo_86k.ply", "gmsh_t13.stl")]
-        objects += [(harness.DATA / "volume" / name, [])
+        # Where the border cuts limbs off, tips may lead curves there that pruning has removed.
+        objects += [(harness.DATA / "volume" / name, ["--border", "ends"])
                     for name in ("neuron_28018323.nrrd", "airway_p4_chopped.nrrd")]
         for (file, options), part in zip(objects, (0.3, 0.8, 0.3, 0.8)):
             self.summarize("skeletonize", file, *options, "--local", "--pruning", "none", "-o",

@@ -15,6 +15,7 @@ absl::Status Run(const std::string& name, const std::vector<std::string>& argume
   using namespace bccskel::quality;
   const std::map<std::string, absl::Status (*)(const StudyOptions&)> studies = {
       {"cut-limbs", StudyCutLimbs},
+      {"image-faces", StudyImageFaces},
       {"figures", StudyFigures},
       {"rotations", StudyRotations},
       {"reconstruction", StudyReconstruction},

@@ -49,8 +49,9 @@ def wild_report(program, arguments):
     lengths = rows_of(program, "spine-lengths", arguments)
     slices = rows_of(program, "thick-slices", arguments)
     cuts = rows_of(program, "cut-limbs", arguments)
+    faces = rows_of(program, "image-faces", arguments, "--half", "judge")
     if not arguments.data:
-        return wild_tables.report(wild, lengths, slices, cuts, [], [], [], {})
+        return wild_tables.report(wild, lengths, slices, cuts, faces, [], [], [], {})
     place = ("--data", arguments.data)
     sizes = ",".join(str(int(n * arguments.points)) for n in (1, 8.5, 40))
     meshes = rows_of(program, "meshes", argparse.Namespace(points=sizes, turns=6), *place)
@@ -58,7 +59,7 @@ def wild_report(program, arguments):
     changed = {words: rows_of(program, "real-masks", arguments, *words.split(), *place)
                for words in wild_tables.MASK_OPTIONS}
     others = [] if arguments.without_peer else peer.measure_masks(program, arguments.data)
-    return wild_tables.report(wild, lengths, slices, cuts, meshes, masks, others, changed)
+    return wild_tables.report(wild, lengths, slices, cuts, faces, meshes, masks, others, changed)
 
 
 def machine():

@@ -12,7 +12,7 @@ import tables
 import wild_tables
 
 STUDIES = {"figures": [], "rotations": [], "reconstruction": [],
-           "spine-lengths": [], "thick-slices": [], "cut-limbs": [],
+           "spine-lengths": [], "thick-slices": [], "cut-limbs": [], "image-faces": [],
            "wild": ["--as", "bcc,mask", "--noise", "0,5", "--half", "judge", "--json"]}
 
 MASKS = [{"mask": f"{kind}.nrrd", "kind": kind, "voxels": 1000, "components": 1, "loops": 2, "ends": 3,
@@ -60,18 +60,29 @@ class SmokeTest(unittest.TestCase):
             self.assertEqual(row["wrong"], 0, row)
             self.assertLess(row["gap"], 0.6, row)
 
+    def test_limbs_that_cross_others_before_the_border_have_ends_there_by_default(self):
+        found = {border: sum(row["found"] for row in self.rows["image-faces"]
+                             if row["border"] == border and row["what"] == "crossing limbs")
+                 for border in ("ends", "auto")}
+        self.assertGreater(found["auto"], found["ends"])
+        tight = {row["border"]: row["changed"] for row in self.rows["image-faces"]
+                 if row["what"] == "tight crops"}
+        self.assertLessEqual(tight["auto"], tight["ends"] + 1)
+
     def test_the_report_has_all_its_tables(self):
         text = "\n".join(tables.report(self.rows["figures"], [], self.rows["rotations"],
                                        self.rows["reconstruction"], [],
                                        wild_tables.report(self.rows["wild"],
                                                           self.rows["spine-lengths"],
                                                           self.rows["thick-slices"],
-                                                          self.rows["cut-limbs"], [], MASKS, [],
+                                                          self.rows["cut-limbs"],
+                                                          self.rows["image-faces"], [], MASKS, [],
                                                           {words: MASKS for words in
                                                            wild_tables.MASK_OPTIONS})))
         for title in ("Targets", "Against known center lines", "Figure by figure", "Turning",
                       "Thinness", "Reconstruction", "Targets in the wild", "Figures in the wild",
-                      "Thick slices", "Limbs that the border cuts", "Real masks", "Options for real masks"):
+                      "Thick slices", "Limbs that the border cuts",
+                      "Images that cut many limbs", "Real masks", "Options for real masks"):
             self.assertIn(f"## {title}", text)
         self.assertNotIn("nan", text)
 

@@ -28,6 +28,9 @@ absl::Status StudyThickSlices(const StudyOptions& options);
 // Straight limbs that the border of an image cuts off, at a slant: how far from the middles of the
 // cuts their curves end.
 absl::Status StudyCutLimbs(const StudyOptions& options);
+// Images that limbs cross in all directions, and figures in the boxes of their voxels, with each
+// choice of what lies beyond the border: which cuts have an end, and which crops have other ends.
+absl::Status StudyImageFaces(const StudyOptions& options);
 // The real masks of the reference data: ends, twigs, redundant length, missed parts.
 absl::Status StudyRealMasks(const StudyOptions& options);
 // The closed meshes of the reference data at several sizes, and turned.

@@ -194,7 +194,8 @@ def masks_section(masks, others):
 
 
 # Of bccskel_quality, and the kinds of masks that they are for.
-MASK_OPTIONS = {"--border continues": ("neuron", "vessels", "airway", "scan"),
+MASK_OPTIONS = {"--border ends": ("neuron", "vessels", "airway", "scan"),
+                "--border continues": ("neuron", "vessels", "airway", "scan"),
                 "--preset neuron": ("neuron",), "--preset vessels": ("vessels",),
                 "--preset airway": ("airway",), "--preset materials": ("scan",)}
 
@@ -214,10 +215,10 @@ def options_section(masks, changed):
     return ["## Options for real masks", "",
             "Values with the defaults and with the option. A preset may change the topology: it "
             "fills cavities and narrow tunnels and removes small components, so there are fewer "
-            "loops and components. `--border continues` keeps the topology. It is for stacks "
-            "that show little of their limbs, and not the default, which leads only the curves of "
-            "limbs to the border: an object that lies flat along a face of the image would get a "
-            "curve in that face beside its others, which is redundant length.",
+            "loops and components. `--border` keeps the topology. `continues` is not the default, "
+            "which looks for the faces of the image that cut limbs off: an object that lies flat "
+            "along a face would get a curve in that face beside its others, which is redundant "
+            "length.",
             "",
             *table(["option", "mask", "components", "loops", "free ends", "branches", "twigs",
                     "missed parts", "redundant length"], rows)]
@@ -248,9 +249,37 @@ def cuts_section(cuts):
                     "largest gap", "radius of the end"], rows)]
 
 
-def report(wild, lengths, slices, cuts, meshes, masks, others, changed):
+def faces_section(faces):
+    crowded = [row for row in faces if row["what"] == "crossing limbs"]
+    kinds = sorted({(row["width"], row["radius"]) for row in crowded})
+    borders = list(dict.fromkeys(row["border"] for row in crowded))
+
+    def cells(width, radius, border):
+        row = next(r for r in crowded if (r["width"], r["radius"], r["border"]) == (width, radius, border))
+        return f"{row['found']} of {row['cuts']}", f"{row['elsewhere']} of {row['at_border']}"
+
+    rows = [[f"{width:g}:1", f"{radius:g}", *(cell for border in borders
+                                             for cell in cells(width, radius, border))]
+            for width, radius in kinds]
+    heads = [head for border in borders for head in (f"{border}: cuts with an end", "other ends")]
+    tight = ", ".join(f"{row['border']} {row['changed']}" for row in faces
+                      if row["what"] == "tight crops")
+    figures = max(row["figures"] for row in faces if row["what"] == "tight crops")
+    return ["## Images that cut many limbs", "",
+            "Masks of cubes 10 radii wide that seven straight limbs cross, by `--border`; many "
+            "cross others just before the border. Cuts: those at up to 50 degrees, away from the "
+            "edges of the image, whose middle no other limb comes near; they have an end if it lies within their "
+            "half-width. Other ends: those at the border that belong to no cut of a limb, however "
+            "slanted. Radii in voxels.", "",
+            *table(["section", "radius", *heads], rows), "",
+            "An image that was cropped to its object cuts nothing off. Figures of the classes "
+            f"above that have another number of ends in the box of their voxels, of {figures}: "
+            f"{tight}."]
+
+
+def report(wild, lengths, slices, cuts, faces, meshes, masks, others, changed):
     return ["## Targets in the wild", "",
             *table(["what", "target", "measured", "met"],
                    list(target_rows(wild, lengths, meshes, masks))),
             *figures_section(wild), *slices_section(slices), *cuts_section(cuts),
-            *meshes_section(meshes), *masks_section(masks, others), *options_section(masks, changed)]
+            *faces_section(faces), *meshes_section(meshes), *masks_section(masks, others), *options_section(masks, changed)]
