@@ -8,6 +8,7 @@
 #include <limits>
 #include <queue>
 #include <unordered_set>
+#include <utility>
 
 #include "core/distance/places.h"
 #include "core/lattice/directions.h"
@@ -51,13 +52,12 @@ class CutFinder {
 
   BorderCuts Find() && {
     BorderCuts cuts{window_, scale_, {}, {}};
-    std::vector<LatticePoint> tops = PointsOnFaces();
-    std::ranges::sort(tops, [&](LatticePoint p, LatticePoint q) {
-      const double at_p = DepthAt(p), at_q = DepthAt(q);
-      return at_p != at_q ? at_p > at_q : p < q;
-    });
-    Points left(tops.begin(), tops.end());
-    for (LatticePoint top : tops) {
+    const std::vector<LatticePoint> points = PointsOnFaces();
+    std::vector<std::pair<double, LatticePoint>> tops;
+    for (LatticePoint p : points) tops.emplace_back(-DepthAt(p), p);
+    std::ranges::sort(tops);
+    Points left(points.begin(), points.end());
+    for (const auto& [height, top] : tops) {
       if (!left.contains(top)) continue;
       const std::vector<LatticePoint> hill = TakeHill(top, left);
       const LatticePoint middle = MiddleOf(hill);
