@@ -27,11 +27,9 @@ constexpr double kPlaceStep = 2;  // units
 // From a junction back along the trunk, in its radius; and how far off its axis the points of its
 // end may lie.
 constexpr double kTrunkRadii = 6, kTrunkWide = 1.25;
-constexpr double kNearRadii = 4;    // from a ball to the border
-constexpr double kOtherLimb = 0.7;  // radius of another limb, in that of the trunk
-// Least length of a branch, in the radius of the section: if the object ends at the border, a body
-// may only touch it.
-constexpr double kLeastBranch = 0.5, kLeastOfContinued = 0.25;
+constexpr double kNearRadii = 4;                    // from a ball to the border
+constexpr double kOtherLimb = 0.7;                  // radius of another limb, in that of the trunk
+constexpr double kLeastBranch = 0.5;                // of a trunk, in the radius of its section
 constexpr int kMostJunctions = 16;                  // along a trunk, which may be a loop
 constexpr size_t kArmPoints = 8;                    // from the junction to where arms are compared
 constexpr double kMostCurve = 8, kLeastCurve = 64;  // of a curve, per radius and in any case
@@ -113,19 +111,12 @@ std::vector<LatticePoint> CurveFrom(LatticePoint previous, LatticePoint p, const
 
 }  // namespace
 
-BorderTips::BorderTips(const Volume& object, const LatticeBox& image,
-                       const std::optional<LatticeBox>& window)
+BorderTips::BorderTips(const Volume& object, const LatticeBox& image)
     : scale_(AxisScaleOf(object.placement())),
       low_(PlaceOf(image.low, scale_)),
       high_(PlaceOf(image.high, scale_)),
       bricks_(object),
-      sections_(object) {
-  if (!window.has_value()) return;
-  const Coordinates low = PlaceOf(window->low, scale_), high = PlaceOf(window->high, scale_);
-  for (size_t axis = 0; axis < 3; ++axis) {
-    continues_[axis] = {low[axis] == low_[axis], high[axis] == high_[axis]};
-  }
-}
+      sections_(object) {}
 
 double BorderTips::OutFrom(const Coordinates& place, const Face& face) const {
   const size_t axis = face.axis;
@@ -390,8 +381,7 @@ std::optional<BorderTips::NewBranch> BorderTips::BranchFrom(const Crossing& cros
     nearest = other;
     least = square;
   });
-  const double shortest = ContinuesBeyond(face) ? kLeastOfContinued : kLeastBranch;
-  if (std::sqrt(least) < shortest * wide) return std::nullopt;
+  if (std::sqrt(least) < kLeastBranch * wide) return std::nullopt;
   limb->start = PlaceOf(nearest, scale_);
   return NewBranch{nearest, StraightTo(*middle, face, *limb), cut};
 }

@@ -1,7 +1,6 @@
 #ifndef BCCSKEL_CORE_PRUNING_BORDER_TIPS_H_
 #define BCCSKEL_CORE_PRUNING_BORDER_TIPS_H_
 
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -31,10 +30,8 @@ class BorderTips {
     std::vector<Coordinates> places;
   };
 
-  // Needs: `object` outlives this. `image` is the box of the image's outermost lattice points,
-  //        `window` that of the volume in which radii were measured.
-  BorderTips(const Volume& object, const LatticeBox& image,
-             const std::optional<LatticeBox>& window);
+  // Needs: `object` outlives this. `image` is the box of the image's outermost lattice points.
+  BorderTips(const Volume& object, const LatticeBox& image);
 
   // The way of a limb whose balls but the last do not touch the border: from the last such ball
   // straight on. None if the branch ends elsewhere, or if the limb does not continue to the border
@@ -105,7 +102,6 @@ class BorderTips {
   std::optional<Limb> TrunkBefore(const Face& face, std::span<const LatticePoint> path,
                                   LatticePoint junction, const ThinSet& set);
   std::optional<Coordinates> MiddleOfCut(const Face& face, const Limb& limb);
-  bool ContinuesBeyond(const Face& face) const { return continues_[face.axis][face.side > 0]; }
   bool Touches(LatticePoint p, const Face& face, const ThinSet& set) const;
   // In the order of faces and points.
   std::vector<Crossing> Crossings(const ThinSet& set) const;
@@ -118,8 +114,7 @@ class BorderTips {
   static Way StraightTo(const Coordinates& middle, const Face& face, const Limb& limb);
 
   const AxisScale scale_;
-  const Coordinates low_, high_;                       // of the image
-  std::array<std::array<bool, 2>, 3> continues_ = {};  // the object, beyond these faces
+  const Coordinates low_, high_;  // of the image
   NearbyBricks bricks_;
   CrossSections sections_;
 };

@@ -26,7 +26,7 @@ constexpr double kDeep = 0.3;
 constexpr double kLeastDeep = 2;
 constexpr double kSections = 4;                               // about as many are looked at
 constexpr double kCutChange = 0.25, kCutChangeMargin = 0.25;  // of the radius; share, and voxels
-constexpr double kLeastWay = 1.2;    // straight into the limb, in the radius
+constexpr double kLeastWay = 1.2;    // straight into the limb, in the longest half-width
 constexpr int kWays = 4;             // on either side of the normal, up to 45 degrees
 constexpr double kLeastShare = 0.5;  // of cuts, in the object's part of a face
 constexpr uint64_t kBytesPerPixel = 1;
@@ -124,7 +124,7 @@ uint64_t PixelGrid::SizeFor(const std::vector<Pixel>& pixels) {
 struct Section {
   double u = 0, v = 0;  // of its middle, in voxels
   double area = 0;
-  double least = 0;  // from the middle to the surface
+  double least = 0, most = 0;  // from the middle to the surface
 
   double Radius() const { return std::sqrt(area / std::numbers::pi); }
 };
@@ -252,12 +252,13 @@ class Face {
     for (int round = 1; round <= kRounds; ++round) {
       const double most = round < kRounds ? 2 * reach : reach;
       if (!Has(middle[0], middle[1], deep)) return std::nullopt;
-      section = {middle[0], middle[1], 0, most};
+      section = {middle[0], middle[1], 0, most, 0};
       std::array<double, kRays> lengths;
       for (size_t n = 0; n < kRays; ++n) {
         lengths[n] = WayOut({middle[0], middle[1], deep}, {sine(n + kRays / 4), sine(n), 0}, most);
         if (lengths[n] >= most) return std::nullopt;
         section.least = std::min(section.least, lengths[n]);
+        section.most = std::max(section.most, lengths[n]);
       }
       double sum_u = 0, sum_v = 0;
       for (size_t n = 0; n < kRays; ++n) {
@@ -288,7 +289,7 @@ class Face {
       }
       middle = {section->u, section->v};
     }
-    return LeadsInto({cut.u, cut.v, 0}, kLeastWay * radius);
+    return LeadsInto({cut.u, cut.v, 0}, kLeastWay * cut.most);
   }
 
   bool LeadsInto(const std::array<double, 3>& from, double length) const {

@@ -42,8 +42,7 @@ TipPlacer::TipPlacer(ThinSet& set, const TipTask& task, TipDepths& depths)
       step_(std::ranges::max(scale_)),
       least_gain_(kGainBySteps * task.noise.step + kGainByNoise * task.noise.thin),
       noise_(task.noise) {
-  if (task.in.image.has_value())
-    border_tips_.emplace(task.in.object, *task.in.image, task.in.WhereDepthsAre().window());
+  if (task.in.image.has_value()) border_tips_.emplace(task.in.object, *task.in.image);
 }
 
 void TipPlacer::Place(LatticePoint end) {

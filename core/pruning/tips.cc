@@ -92,8 +92,7 @@ absl::StatusOr<PointsByAxis> PlaceTips(ThinSet& set, const PrunedObject& in, Tip
   }
   if (in.image.has_value()) {
     ExactRadius radius = in.radius;
-    BorderTips(in.object, *in.image, in.WhereDepthsAre().window())
-        .AddBranches(radius, set, at_border, context);
+    BorderTips(in.object, *in.image).AddBranches(radius, set, at_border, context);
     if (context.ShouldStop()) return context.StopStatus();
   }
   return at_border;

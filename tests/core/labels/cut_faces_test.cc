@@ -129,7 +129,7 @@ TEST(CutFaces, AreNotThoseAlongWallsAndFlatLimbs) {
 
 // The larger part of what lies on a face decides.
 TEST(CutFaces, AreThoseOfMostOfTheirVoxels) {
-  for (const double length : {6.0, 25.0}) {  // half that of a limb along the face
+  for (const double length : {4.0, 25.0}) {  // half that of a limb along the face
     const ImageFaces faces = FacesOf(kCube, {}, [&](const Voxel& at) {
       const auto p = FromFace(kCube, 1, 1, at);
       return (p[0] < 30 && std::hypot(p[1] - 15, p[2] - 15) < 6) ||
