@@ -110,9 +110,8 @@ TEST(ImageBorder, ALimbLeadsToItBehindABranch) {
   const double slope = 0.5, radius = 8;
   const auto axis = [&](double x) { return 22 + slope * (x - 35); };
   using Case = std::pair<double, Border>;
-  for (const auto& [beside, border] :
-       {Case{4, Border::kEnds}, Case{7, Border::kEnds}, Case{10, Border::kEnds},
-        Case{7, Border::kAuto}, Case{10, Border::kAuto}}) {
+  for (const auto& [beside, border] : {Case{4, Border::kEnds}, Case{7, Border::kEnds},
+                                       Case{10, Border::kEnds}, Case{10, Border::kAuto}}) {
     const double branch = 70 - beside;
     const SkeletonizeOptions options = {.border = border};
     const SkeletonizeResult result = SkeletonOf(grid, options, {}, [&](const Voxel& at) {
