@@ -25,8 +25,11 @@ std::vector<BrickKey> BricksBeyond(const Volume& object, const LatticeBox& windo
     const bool exists = std::min({brick.bx, brick.by, brick.bz}) >= 0;
     if (exists && !window.Contains(BoxOf(brick))) keys.push_back(BrickKey(brick));
   };
+  constexpr LatticePoint kBrick = {2 * kBrickX, 2 * kBrickY, 2 * kBrickZ};
   for (BrickIndex n = 0; n < object.brick_count(); ++n) {
     const BrickCoordinates brick = object.keys()[n].coordinates();
+    const auto [low, high] = BoxOf(brick);
+    if (window.Contains(LatticeBox{low - kBrick, high + kBrick})) continue;
     add(brick);
     for (int position = 0; position < kNeighborCount; ++position) {
       const bool is_stored =
@@ -57,7 +60,7 @@ Volume PointsBeyond(const Volume& object, const LatticeBox& window, std::vector<
 template <typename Value>
 uint32_t KeepPart(const Volume& part, const Volume& whole,
                   exec::UninitializedVector<Value>& values) {
-  Value largest = 0;
+  uint32_t largest = 0;  // integers, so that the loop vectorizes
   for (BrickIndex n = 0; n < part.brick_count(); ++n) {
     const BrickIndex source = *whole.Find(part.keys()[n]);
     const Value* from = &values[size_t{source} * kBrickPoints];
@@ -65,11 +68,13 @@ uint32_t KeepPart(const Volume& part, const Volume& whole,
     if (source != n) std::copy_n(from, kBrickPoints, to);
     const BrickBits others = whole.bricks()[source] & ~part.bricks()[n];
     others.ForEachSetBit([&](int bit) { to[bit] = 0; });
-    for (int bit = 0; bit < kBrickPoints; ++bit) largest = std::max(largest, to[bit]);
+    for (int bit = 0; bit < kBrickPoints; ++bit) {
+      largest = std::max(largest, DistanceField::RankOf(to[bit]));
+    }
   }
   values.resize((part.brick_count() + 1) * kBrickPoints);
   std::fill_n(values.end() - kBrickPoints, kBrickPoints, Value{0});
-  return DistanceField::RankOf(largest);
+  return largest;
 }
 
 }  // namespace
