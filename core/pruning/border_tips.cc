@@ -36,14 +36,6 @@ constexpr double kMostCurve = 8, kLeastCurve = 64;  // of a curve, per radius an
 constexpr int kRounds = 3;
 constexpr double kLongestStep = 2;  // between neighbors, in the longest edge
 constexpr double kToLattice = 1.2;  // from a place to the nearest lattice point, at most, likewise
-constexpr size_t kRays = 2 * kTurns.size();
-
-Coordinates RayIn(const std::array<Coordinates, 2>& plane, size_t n) {
-  const auto& [cosine, sine] = kTurns[n % kTurns.size()];
-  const double sign = n < kTurns.size() ? 1 : -1;
-  return Turned({sign * cosine, sign * sine}, plane[0], plane[1]);
-}
-
 // Position in the path of the point from which the way to the point at `n` is measured.
 size_t BackFrom(std::span<const LatticePoint> path, size_t n, const ThinSet& set) {
   const double length = kBackRadii * set.RadiusOf(path[n]) + kBackMargin;
@@ -140,26 +132,20 @@ std::vector<BorderTips::Face> BorderTips::FacesNear(LatticePoint p, double reach
 std::optional<BorderTips::Section> BorderTips::SectionAt(Coordinates middle,
                                                          const std::array<Coordinates, 2>& plane,
                                                          double reach) {
-  constexpr double kSine = kTurns[1][1];  // of the angle between two rays
   Section section;
   for (int round = 1; round <= kRounds; ++round) {
     const double most = round < kRounds ? 2 * reach : reach;
     section = {middle, 0};
-    Coordinates sum = {0, 0, 0};
-    std::array<double, kRays> lengths;
-    std::array<Coordinates, kRays> ways;
+    RayLengths lengths;
+    RayWays ways;
     for (size_t n = 0; n < kRays; ++n) {
       ways[n] = RayIn(plane, n);
       lengths[n] = sections_.WayOut(middle, ways[n], 0, most) + 0.5;
       if (lengths[n] >= most) return std::nullopt;
     }
-    for (size_t n = 0; n < kRays; ++n) {
-      const size_t next = (n + 1) % kRays;
-      const double area = lengths[n] * lengths[next] * kSine / 2;
-      sum = Sum(Sum(sum, area * lengths[n] / 3, ways[n]), area * lengths[next] / 3, ways[next]);
-      section.area += area;
-    }
-    section.middle = middle = Sum(middle, 1 / section.area, sum);
+    const RayPolygon seen = PolygonOf(ways, lengths);
+    section.area = seen.area;
+    section.middle = middle = Sum(middle, 1, seen.middle);
   }
   return section;
 }

@@ -25,6 +25,20 @@ bool IsWall(const CrossSection& section) {
 
 }  // namespace
 
+RayPolygon PolygonOf(const RayWays& ways, const RayLengths& lengths) {
+  constexpr double kSine = kTurns[1][1];  // of the angle between two rays
+  RayPolygon polygon;
+  Coordinates sum = {0, 0, 0};
+  for (size_t n = 0; n < kRays; ++n) {
+    const size_t next = (n + 1) % kRays;
+    const double area = lengths[n] * lengths[next] * kSine / 2;
+    sum = Sum(Sum(sum, area * lengths[n] / 3, ways[n]), area * lengths[next] / 3, ways[next]);
+    polygon.area += area;
+  }
+  polygon.middle = Times(1 / polygon.area, sum);
+  return polygon;
+}
+
 CrossSection CrossSections::Across(const Coordinates& middle, const Coordinates& way, double radius,
                                    double reach) {
   const auto [u, v] = ::bccskel::Across(way);

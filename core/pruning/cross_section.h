@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 
 #include "core/distance/places.h"
 #include "core/volume/volume.h"
@@ -24,6 +25,25 @@ inline Coordinates Turned(const std::array<double, 2>& turn, const Coordinates& 
                           const Coordinates& v) {
   return Sum(Times(turn[0], u), turn[1], v);
 }
+
+// Rays all around in a plane.
+inline constexpr size_t kRays = 2 * kTurns.size();
+using RayWays = std::array<Coordinates, kRays>;  // of length 1
+using RayLengths = std::array<double, kRays>;
+
+// The direction of the n-th ray. Needs: the plane's vectors have length 1 and are perpendicular.
+inline Coordinates RayIn(const std::array<Coordinates, 2>& plane, size_t n) {
+  const auto& [cosine, sine] = kTurns[n % kTurns.size()];
+  const double sign = n < kTurns.size() ? 1 : -1;
+  return Turned({sign * cosine, sign * sine}, plane[0], plane[1]);
+}
+
+// The polygon between the ends of rays that start together.
+struct RayPolygon {
+  double area = 0;
+  Coordinates middle = {0, 0, 0};  // the centroid, from their start
+};
+RayPolygon PolygonOf(const RayWays& ways, const RayLengths& lengths);
 
 // A cross-section of the object at a point of a branch. All lengths are in lattice units.
 struct CrossSection {

@@ -13,6 +13,7 @@
 
 #include "core/distance/places.h"
 #include "core/exec/status_macros.h"
+#include "core/pruning/cross_section.h"
 
 namespace bccskel {
 namespace {
@@ -240,37 +241,25 @@ class Face {
   // to `reach`; in the first rounds, where the middle may lie on one side, to twice as far.
   std::optional<Section> SectionAt(std::array<double, 2> middle, double deep, double reach) const {
     constexpr int kRounds = 3;
-    constexpr size_t kRays = 16;
-    static constexpr std::array<double, kRays / 4 + 1> kSines = {0, 0.38268343, 0.70710678,
-                                                                 0.92387953, 1};
-    const auto sine = [](size_t n) {
-      const size_t half = n % (kRays / 2);
-      const double of_half = kSines[std::min(half, kRays / 2 - half)];
-      return n % kRays < kRays / 2 ? of_half : -of_half;
-    };
+    constexpr std::array<Coordinates, 2> kPlane = {{{1, 0, 0}, {0, 1, 0}}};
     Section section;
     for (int round = 1; round <= kRounds; ++round) {
       const double most = round < kRounds ? 2 * reach : reach;
       if (!Has(middle[0], middle[1], deep)) return std::nullopt;
       section = {middle[0], middle[1], 0, most, 0};
-      std::array<double, kRays> lengths;
+      RayLengths lengths;
+      RayWays ways;
       for (size_t n = 0; n < kRays; ++n) {
-        lengths[n] = WayOut({middle[0], middle[1], deep}, {sine(n + kRays / 4), sine(n), 0}, most);
+        ways[n] = RayIn(kPlane, n);
+        lengths[n] = WayOut({middle[0], middle[1], deep}, ways[n], most);
         if (lengths[n] >= most) return std::nullopt;
         section.least = std::min(section.least, lengths[n]);
         section.most = std::max(section.most, lengths[n]);
       }
-      double sum_u = 0, sum_v = 0;
-      for (size_t n = 0; n < kRays; ++n) {
-        const size_t next = (n + 1) % kRays;
-        const double area = lengths[n] * lengths[next] * kSines[1] / 2;
-        sum_u +=
-            area / 3 * (lengths[n] * sine(n + kRays / 4) + lengths[next] * sine(next + kRays / 4));
-        sum_v += area / 3 * (lengths[n] * sine(n) + lengths[next] * sine(next));
-        section.area += area;
-      }
-      section.u = middle[0] += sum_u / section.area / edge_[u_];
-      section.v = middle[1] += sum_v / section.area / edge_[v_];
+      const RayPolygon seen = PolygonOf(ways, lengths);
+      section.area = seen.area;
+      section.u = middle[0] += seen.middle[0] / edge_[u_];
+      section.v = middle[1] += seen.middle[1] / edge_[v_];
     }
     return section;
   }
