@@ -30,27 +30,41 @@ constexpr double kCutChange = 0.25, kCutChangeMargin = 0.25;  // of the radius; 
 constexpr double kLeastWay = 1.2;    // straight into the limb, in the longest half-width
 constexpr int kWays = 4;             // on either side of the normal, up to 45 degrees
 constexpr double kLeastShare = 0.5;  // of cuts, in the object's part of a face
-constexpr uint64_t kBytesPerPixel = 1;
+// Of a voxel on a face in its two lists, and of a pixel of the grid.
+constexpr uint64_t kBytesPerVoxel = 16, kBytesPerPixel = 1;
 
 struct Pixel {
   int32_t u, v;
 };
 
+struct PixelBox {
+  Pixel low, high;
+
+  // With a pixel of margin on every side.
+  size_t Width() const { return static_cast<size_t>(high.u - low.u) + 3; }
+  size_t Height() const { return static_cast<size_t>(high.v - low.v) + 3; }
+};
+
+// Needs: at least one pixel.
+PixelBox BoxAround(const std::vector<Pixel>& pixels) {
+  const auto [low_u, high_u] = std::ranges::minmax(pixels, {}, &Pixel::u);
+  const auto [low_v, high_v] = std::ranges::minmax(pixels, {}, &Pixel::v);
+  return {{low_u.u, low_v.v}, {high_u.u, high_v.v}};
+}
+
 std::array<int32_t, 3> ArrayOf(LatticePoint p) { return {p.x, p.y, p.z}; }
 
-// The object's voxels on a face of the image, in a grid that is as large as necessary. Their depth
+// The object's voxels on a face of the image, in a grid that holds their box. Their depth
 // is the number of steps to others, 1 to 127.
 class PixelGrid {
   static constexpr uint8_t kTaken = 128;
 
  public:
-  // Needs: at least one pixel.
-  explicit PixelGrid(const std::vector<Pixel>& pixels) {
-    const auto [low_u, high_u] = std::ranges::minmax(pixels, {}, &Pixel::u);
-    const auto [low_v, high_v] = std::ranges::minmax(pixels, {}, &Pixel::v);
-    low_ = {low_u.u - 1, low_v.v - 1};
-    width_ = static_cast<size_t>(high_u.u - low_u.u) + 3;
-    depths_.resize(width_ * (static_cast<size_t>(high_v.v - low_v.v) + 3));
+  // Needs: `box` is that around the pixels.
+  PixelGrid(const std::vector<Pixel>& pixels, const PixelBox& box)
+      : low_{box.low.u - 1, box.low.v - 1},
+        width_(box.Width()),
+        depths_(box.Width() * box.Height()) {
     for (const Pixel& p : pixels) depths_[At(p)] = kTaken - 1;
     // The least of the neighbors before, then of those behind, plus a step.
     const auto step = [&](size_t at, size_t beside, size_t across) {
@@ -60,8 +74,6 @@ class PixelGrid {
     for (size_t at = width_; at < depths_.size(); ++at) step(at, at - 1, at - width_);
     for (size_t at = depths_.size() - width_; at-- > 0;) step(at, at + 1, at + width_);
   }
-
-  static uint64_t SizeFor(const std::vector<Pixel>& pixels);
 
   bool Has(const Pixel& p) const {
     const auto column = static_cast<size_t>(p.u - low_.u);  // large if it is negative
@@ -114,13 +126,6 @@ class PixelGrid {
   std::vector<uint8_t> depths_;
 };
 
-uint64_t PixelGrid::SizeFor(const std::vector<Pixel>& pixels) {
-  const auto [low_u, high_u] = std::ranges::minmax(pixels, {}, &Pixel::u);
-  const auto [low_v, high_v] = std::ranges::minmax(pixels, {}, &Pixel::v);
-  return (static_cast<uint64_t>(high_u.u - low_u.u) + 3) *
-         (static_cast<uint64_t>(high_v.v - low_v.v) + 3);
-}
-
 // A part of a layer of voxels, as seen from its middle. Lengths are in lattice units.
 struct Section {
   double u = 0, v = 0;  // of its middle, in voxels
@@ -156,20 +161,45 @@ class Face {
     }
   }
 
-  // Appends the brick's voxels on the face.
-  void AppendPixels(BrickCoordinates brick, const BrickBits& bits,
-                    std::vector<Pixel>& pixels) const {
-    const LatticeBox box = BoxOf(brick);
-    const int32_t from = first_ - ArrayOf(box.low)[axis_];
-    if (from < 0 || first_ > ArrayOf(box.high)[axis_] || from % 2 != 0) return;
-    const BrickBits in_layer = bits & layers_[static_cast<size_t>(from / 2)];
-    in_layer.ForEachSetBit([&](int bit) {
-      if (const auto pixel = PixelOf(PointOf(brick, bit))) pixels.push_back(*pixel);
+  // Whether cuts across limbs make at least half of the object's voxels on the face.
+  // Errors: of the budget.
+  absl::StatusOr<bool> CutsLimbs(const Volume& object, exec::MemoryBudget& memory,
+                                 const exec::Context& context) {
+    exec::MemoryShare share(memory);
+    uint64_t most = 0;
+    ForEachBrickOn(object, [&](BrickCoordinates, const BrickBits& bits) { most += bits.Count(); });
+    BCCSKEL_RETURN_IF_ERROR(share.TakeFor(most, kBytesPerVoxel, "voxels on a face of the image"));
+    std::vector<Pixel> pixels;
+    pixels.reserve(most);
+    ForEachBrickOn(object, [&](BrickCoordinates brick, const BrickBits& bits) {
+      bits.ForEachSetBit([&](int bit) {
+        if (const auto pixel = PixelOf(PointOf(brick, bit))) pixels.push_back(*pixel);
+      });
     });
+    if (pixels.empty()) return false;
+    const PixelBox box = BoxAround(pixels);
+    BCCSKEL_RETURN_IF_ERROR(
+        share.TakeFor(box.Width() * box.Height(), kBytesPerPixel, "pixels of a face of the image"));
+    PixelGrid grid(pixels, box);
+    return AreMostlyCuts(pixels, grid, context);
   }
 
-  // Whether cuts across limbs make enough of the face. Takes the deepest from the grid first.
-  bool CutsLimbs(const std::vector<Pixel>& pixels, PixelGrid& grid, const exec::Context& context) {
+ private:
+  // Visits the points of bricks in the layer of the middles of the face's voxels.
+  template <typename Visit>
+  void ForEachBrickOn(const Volume& object, Visit visit) const {
+    for (BrickIndex n = 0; n < object.brick_count(); ++n) {
+      const BrickCoordinates brick = object.keys()[n].coordinates();
+      const LatticeBox box = BoxOf(brick);
+      const int32_t from = first_ - ArrayOf(box.low)[axis_];
+      if (from < 0 || first_ > ArrayOf(box.high)[axis_] || from % 2 != 0) continue;
+      visit(brick, object.bricks()[n] & layers_[static_cast<size_t>(from / 2)]);
+    }
+  }
+
+  // Takes the deepest pixels from the grid first.
+  bool AreMostlyCuts(const std::vector<Pixel>& pixels, PixelGrid& grid,
+                     const exec::Context& context) {
     grid_ = &grid;
     const std::vector<Pixel> sorted = grid.DeepestFirst(pixels);
     const double pixel = edge_[u_] * edge_[v_];
@@ -197,7 +227,6 @@ class Face {
     return false;
   }
 
- private:
   // The voxel with its middle there; none: it is not one.
   std::optional<Pixel> PixelOf(LatticePoint p) const {
     const auto at = ArrayOf(p);
@@ -314,30 +343,12 @@ absl::StatusOr<ImageFaces> FacesThatCutLimbs(const Volume& object, const Lattice
                                              const exec::Context& context) {
   const AxisScale scale = AxisScaleOf(object.placement());
   NearbyBricks bricks(object);
-  std::vector<Face> faces;
-  for (size_t axis = 0; axis < 3; ++axis) {
-    for (const bool last : {false, true}) {
-      faces.emplace_back(image, scale, cells, axis, last, bricks);
-    }
-  }
-  std::array<std::vector<Pixel>, 6> pixels;
-  const LatticePoint voxel = {2 * cells, 2 * cells, 2 * cells};
-  const LatticeBox inside = {image.low + voxel, image.high - voxel};
-  for (BrickIndex n = 0; n < object.brick_count(); ++n) {
-    const BrickCoordinates brick = object.keys()[n].coordinates();
-    if (inside.Contains(BoxOf(brick))) continue;
-    for (size_t face = 0; face < faces.size(); ++face) {
-      faces[face].AppendPixels(brick, object.bricks()[n], pixels[face]);
-    }
-  }
   ImageFaces that_cut = kNoFaces;
-  for (size_t n = 0; n < faces.size(); ++n) {
-    if (pixels[n].empty()) continue;
-    exec::MemoryShare share(memory);
-    BCCSKEL_RETURN_IF_ERROR(share.TakeFor(PixelGrid::SizeFor(pixels[n]), kBytesPerPixel,
-                                          "voxels of a face of the image"));
-    PixelGrid grid(pixels[n]);
-    that_cut[n / 2][n % 2] = faces[n].CutsLimbs(pixels[n], grid, context);
+  for (size_t axis = 0; axis < 3; ++axis) {
+    for (const size_t side : {0u, 1u}) {
+      Face face(image, scale, cells, axis, side == 1, bricks);
+      BCCSKEL_ASSIGN_OR_RETURN(that_cut[axis][side], face.CutsLimbs(object, memory, context));
+    }
   }
   BCCSKEL_RETURN_IF_ERROR(context.StopStatus());
   return that_cut;

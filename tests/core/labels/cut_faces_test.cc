@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "core/exec/memory_budget.h"
@@ -136,6 +137,38 @@ TEST(CutFaces, AreThoseOfMostOfTheirVoxels) {
              (std::hypot(p[0] - 2, p[2] + 10) < 4 && std::abs(p[1]) < length);
     });
     EXPECT_EQ(faces, length < 20 ? Only(1, 1) : kNoFaces) << length;
+  }
+}
+
+// Allows so much at once.
+class Allowance final : public exec::MemoryBudget {
+ public:
+  explicit Allowance(uint64_t most) : most_(most) {}
+  absl::Status Take(uint64_t bytes, const std::string& what_for) override {
+    if (taken_ + bytes > most_) return absl::ResourceExhaustedError(what_for);
+    taken_ += bytes;
+    return absl::OkStatus();
+  }
+  void GiveBack(uint64_t bytes) override { taken_ -= bytes; }
+  uint64_t taken() const { return taken_; }
+
+ private:
+  const uint64_t most_;
+  uint64_t taken_ = 0;
+};
+
+// A pixel of the grid, and a voxel in two lists, of the largest face.
+TEST(CutFaces, TakeTheirMemoryFromTheBudgetAndGiveItBack) {
+  constexpr uint64_t kVoxels = 60 * 60, kPixels = 62 * 62;
+  const Volume object = ConversionOf(kCube, {}, [](const Voxel& at) { return at[0] != 30; });
+  const LatticeBox image = WindowOf(object.extent(), BorderPoints::kLastCorners, kAllFaces);
+  Allowance enough(16 * kVoxels + kPixels), small(16 * kVoxels - 1), smaller(kPixels);
+  EXPECT_TRUE(FacesThatCutLimbs(object, image, 1, enough, {}).ok());
+  EXPECT_EQ(enough.taken(), 0u);
+  for (Allowance* memory : {&small, &smaller}) {
+    const auto faces = FacesThatCutLimbs(object, image, 1, *memory, {});
+    EXPECT_EQ(faces.status().code(), absl::StatusCode::kResourceExhausted);
+    EXPECT_EQ(memory->taken(), 0u);
   }
 }
 
