@@ -101,16 +101,16 @@ absl::StatusOr<BeyondFaces> FindFaces(const Volume& object, const SkeletonizeOpt
                                       Border border, exec::MemoryBudget& memory,
                                       const exec::Context& context) {
   const BorderPoints last = LastPointsOf(options.source);
-  const bool has_background = object.PointCount() < PointCountOf(object.extent(), last);
-  if (border == Border::kContinues && has_background) return BeyondFaces{kAllFaces, border};
+  if (border == Border::kContinues && HasBackground(object, last)) {
+    return BeyondFaces{kAllFaces, border};
+  }
   if (const auto slice = AxisOfOneSlice(object.extent(), options)) {
     BeyondFaces across = {kNoFaces, Border::kContinuesAcrossSlice};
     across.faces[*slice] = {true, true};
     return across;
   }
-  const bool may_cut = IsConverted(options.source) && HasCurves(options.thinning);
   if (border != Border::kAuto) return BeyondFaces{kNoFaces, border};
-  if (!may_cut) return BeyondFaces();
+  if (!IsConverted(options.source) || !HasCurves(options.thinning)) return BeyondFaces();
   BCCSKEL_ASSIGN_OR_RETURN(const ImageFaces faces,
                            FacesThatCutLimbs(object, WindowOf(object.extent(), last, kAllFaces),
                                              CellsPerVoxel(options.source), memory, context));

@@ -25,13 +25,13 @@ BorderPoints LastPointsOf(ObjectSource source);
 std::optional<LatticeBox> ImageThatCuts(const LatticeExtent& extent,
                                         const SkeletonizeOptions& options);
 
-// Beyond which faces of its image the object continues, and how results state it. `border` is that
-// of CanonicalOptions().
-// Errors: of the budget, CANCELLED, DEADLINE_EXCEEDED.
+// Beyond which faces of its image an object continues, and how results state it.
 struct BeyondFaces {
   ImageFaces faces = kNoFaces;
   Border stated = Border::kEnds;
 };
+// `border` is that of CanonicalOptions().
+// Errors: of the budget, CANCELLED, DEADLINE_EXCEEDED.
 absl::StatusOr<BeyondFaces> FindFaces(const Volume& object, const SkeletonizeOptions& options,
                                       Border border, exec::MemoryBudget& memory,
                                       const exec::Context& context);

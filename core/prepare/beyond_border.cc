@@ -79,10 +79,11 @@ uint32_t KeepPart(const Volume& part, const Volume& whole,
 
 }  // namespace
 
-uint64_t PointCountOf(const LatticeExtent& extent, BorderPoints border) {
-  if (border == BorderPoints::kLastOfLattice) return extent.PointCount();
-  const LatticeExtent corners = extent, voxels = {extent.nx - 1, extent.ny - 1, extent.nz - 1};
-  return (corners.PointCount() + voxels.PointCount()) / 2;
+bool HasBackground(const Volume& object, BorderPoints border) {
+  const LatticeExtent& extent = object.extent();
+  if (border == BorderPoints::kLastOfLattice) return object.PointCount() < extent.PointCount();
+  const LatticeExtent voxels = {extent.nx - 1, extent.ny - 1, extent.nz - 1};
+  return object.PointCount() < (extent.PointCount() + voxels.PointCount()) / 2;
 }
 
 LatticeBox WindowOf(const LatticeExtent& extent, BorderPoints border, const ImageFaces& faces) {
@@ -107,9 +108,8 @@ absl::StatusOr<DistanceField> MeasureIn(const Volume& space, const Volume& objec
 
 absl::StatusOr<Volume> ContinueBeyond(const ImageFaces& faces, const Volume& object,
                                       BorderPoints border, exec::MemoryBudget& memory) {
-  const LatticeExtent& extent = object.extent();
-  if (faces == kAllFaces && object.PointCount() == PointCountOf(extent, border)) return object;
-  const LatticeBox window = WindowOf(extent, border, faces);
+  if (faces == kAllFaces && !HasBackground(object, border)) return object;
+  const LatticeBox window = WindowOf(object.extent(), border, faces);
   std::vector<BrickKey> keys = BricksBeyond(object, window);
   const auto added = static_cast<uint64_t>(
       std::ranges::count_if(keys, [&](BrickKey key) { return !object.Find(key).has_value(); }));

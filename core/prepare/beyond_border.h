@@ -20,8 +20,8 @@ using ImageFaces = std::array<std::array<bool, 2>, 3>;
 inline constexpr ImageFaces kNoFaces = {};
 inline constexpr ImageFaces kAllFaces = {{{true, true}, {true, true}, {true, true}}};
 
-// How many points an image without background has.
-uint64_t PointCountOf(const LatticeExtent& extent, BorderPoints border);
+// Whether the object leaves any point of its image out.
+bool HasBackground(const Volume& object, BorderPoints border);
 // The box of the image's outermost points, extended without limit beyond the other faces.
 LatticeBox WindowOf(const LatticeExtent& extent, BorderPoints border, const ImageFaces& faces);
 
