@@ -54,7 +54,7 @@ struct SquaredLengths {
 using BrickStack = std::span<const BrickIndex>;
 
 // What lies before and after a stack: background, or points outside the window, which give no
-// distance. Only for floats.
+// distance.
 struct StackEnds {
   bool unknown_before = false;
   bool unknown_after = false;
@@ -64,8 +64,12 @@ struct StackEnds {
 // The run beside a row that has no background up to the end of the window: longer than any real
 // run.
 inline constexpr uint32_t kUnknownRun = uint32_t{1} << 26;
-// The most rows that loops may read beyond the ends of a stack.
-inline constexpr size_t kMostEndRows = 20;
+// The most rows that loops may read beyond the ends of a stack: in 16 bits, steps of more than 255
+// units find nothing nearer; floats take 16 at most.
+template <typename T>
+inline constexpr size_t kMostEndRows = 260;
+template <>
+inline constexpr size_t kMostEndRows<float> = 20;
 
 // The layers [first, end) of each brick of a stack along y.
 struct LayersOfBrick {

@@ -28,10 +28,12 @@ using Vector = hn::Vec<Tag<T>>;
 template <typename T>
 inline constexpr size_t kBandPoints = 64 / sizeof(T);
 
-// The number of padding rows on either side of a stack. Two rows search outward together, two steps
-// at a time, so one of them may read three rows past the first row of background. Rows of unknown
-// points do not stop a search, so there are as many as steps, and three more.
-constexpr size_t EndRows(StackEnds ends) { return ends.AreKnown() ? 4 : kMostEndRows; }
+// Padding rows on either side of a stack. Two rows search outward together, two steps at a time, so
+// one may read three rows past the first row of background. Unknown points stop no search.
+template <typename T>
+constexpr size_t EndRows(StackEnds ends) {
+  return ends.AreKnown() ? 4 : kMostEndRows<T>;
+}
 
 // Far from all background.
 template <typename T>
@@ -46,12 +48,12 @@ HWY_INLINE Vector<uint16_t> Sum(Vector<uint16_t> a, Vector<uint16_t> b) {
 }
 
 // The most steps of a search outward, which takes one per unit of distance. Floats stop when the
-// search of a whole column would take no longer; integers never get that far.
+// search of a whole column would take no longer; integers saturate after 256 units.
 template <typename T>
 inline constexpr size_t kMostSteps = 512;
 template <>
 inline constexpr size_t kMostSteps<float> = 16;
-static_assert(kMostSteps<float> + 3 < kMostEndRows);
+static_assert(kMostSteps<float> + 3 < kMostEndRows<float>);
 
 // Lowers `best` to the minimum of the rows ever farther to both sides, each plus the square of its
 // distance: the n-th pair of rows, kPitch values apart, is squares[n * kStride] away. All values of
@@ -79,7 +81,7 @@ HWY_INLINE bool LookOutward(Vector<T>& best, const T* before, const T* after, co
 template <typename T>
 struct LayerRows {
   LayerRows(size_t bricks, StackEnds ends, T unit_square)
-      : end_rows(EndRows(ends)),
+      : end_rows(EndRows<T>(ends)),
         own((kBrickY * bricks + 2 * end_rows) * kBrickX),
         between((kBrickY * bricks + 2 * end_rows) * kBrickX, unit_square) {
     for (std::vector<T>* rows : {&own, &between}) {
@@ -326,7 +328,7 @@ template <typename T>
 HWY_INLINE void ScanAcrossLayersOf(const EuclideanView<T>& view, const SquaredLengths<T>& lengths,
                                    Sublattice sublattice, BrickStack stack, StackEnds ends) {
   constexpr size_t kBand = kBandPoints<T>;
-  const size_t end_rows = EndRows(ends);
+  const size_t end_rows = EndRows<T>(ends);
   std::vector<T> rows((2 * kBrickZ * stack.size() + 2 * end_rows) * kBand);
   if (ends.unknown_before) std::fill_n(rows.begin(), end_rows * kBand, Far<T>());
   if (ends.unknown_after) std::fill_n(rows.rbegin(), end_rows * kBand, Far<T>());

@@ -99,7 +99,7 @@ class EuclideanScan {
   static constexpr size_t kSamePlace = 0, kAcrossZ = 4;
   static constexpr size_t kScanWork = 16;  // in the unit of Context::WorkersFor()
   // Some steps past the end of a stack: rows along y are two apart.
-  static constexpr size_t kFartherThanStack = 4 * kMostEndRows;
+  static constexpr size_t kFartherThanStack = 4 * kMostEndRows<T>;
 
   // Distributes the items among the workers, which ask before every `at_once` of them whether to
   // stop.

@@ -33,8 +33,7 @@ class EuclideanStream {
       : object_(object),
         context_(context),
         sink_(sink),
-        may_be_whole_(AxisScaleOf(object.placement()) == kIsotropic &&
-                      !object.window().has_value()),
+        may_be_whole_(AxisScaleOf(object.placement()) == kIsotropic),
         groups_(ColumnsOf(object, BricksAtX(object), BricksAtOnce(object, at_once))),
         keeps_floats_(keep == KeepField::kAlways ||
                       object.brick_count() * kBrickPoints <= kMostFloatsKept),
