@@ -197,7 +197,7 @@ function nodeMeshes() {
   for (const [, kind] of stateAt) ++many[groupOf(kind)];  // at most
   for (const group of ["end", "junction", "other"]) {
     const size = (group === "end" ? 1.8 : 2) * kThickness;
-    const rings = many[group] > 20000 ? 3 : many[group] > 2000 ? 6 : 12;
+    const rings = many[group] > 20000 ? 3 : many[group] > 1000 ? 6 : many[group] > 200 ? 8 : 12;
     const mesh = new THREE.InstancedMesh(
       new THREE.SphereBufferGeometry(size, rings + rings / 3, rings),
       new THREE.MeshPhongMaterial({ shininess: 60, specular: 0x333333 }), many[group]);
