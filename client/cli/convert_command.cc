@@ -65,25 +65,23 @@ absl::Status WriteDocument(const std::string& path, const std::string& title,
 }
 
 ExitCode WriteDocuments(const ConvertArguments& arguments, const view::ResultDocument& result,
-                        const ProgressBar& bar, const std::stop_token& stop,
+                        const ProgressBar& bar, const exec::Context& context,
                         const std::vector<WrittenFile>& files) {
-  if (std::ranges::none_of(arguments.outputs, HoldsDocument)) return ExitCode::kOk;
-  LocalTeam team(arguments.common.threads, stop);
   const std::string title(FileName(arguments.result));
   for (const WrittenFile& file : files) {
     if (!HoldsDocument(file.path)) continue;
     bar.Begin("writing", file.path);
-    const absl::Status written = WriteDocument(file.path, title, result, team.context());
+    const absl::Status written = WriteDocument(file.path, title, result, context);
     if (!written.ok()) return FailWith(ExitCode::kOutput, written);
   }
   return ExitCode::kOk;
 }
 
 ExitCode WriteGraphs(const ConvertArguments& arguments, const view::ResultDocument& document,
-                     const ProgressBar& bar, const std::stop_token& stop,
+                     const ProgressBar& bar, const exec::Context& context,
                      std::vector<WrittenFile>& files) {
   if (std::ranges::none_of(arguments.outputs, exporting::HoldsGraph)) return ExitCode::kOk;
-  const absl::StatusOr<view::ResultGraph> result = view::ResultGraphOf(document, stop);
+  const absl::StatusOr<view::ResultGraph> result = view::ResultGraphOf(document, context.stop);
   if (!result.ok()) return Fail(WithPath(result.status(), arguments.result));
   const std::optional<RootChoice>& root =
       arguments.root.has_value() ? arguments.root : result->root;
@@ -93,13 +91,13 @@ ExitCode WriteGraphs(const ConvertArguments& arguments, const view::ResultDocume
     if (!fits.ok()) return FailWith(ExitCode::kUsage, fits);
     const std::string outside = RootWarning(*root, result->graph);
     if (!outside.empty()) Warn(arguments.result + ": " + outside);
-    order = OrderTrees(result->graph, *root, stop);
+    order = OrderTrees(result->graph, *root, context.stop);
   }
   const exporting::GraphSubject subject = {.graph = result->graph,
                                            .context = {.labels = {},
                                                        .facts = exporting::MethodFactsOf(*result),
                                                        .order = std::move(order),
-                                                       .stop = stop},
+                                                       .exec = context},
                                            .world = {Known(result->world), Known(result->unit)},
                                            .swc = arguments.swc};
   for (WrittenFile& file : files) {
@@ -147,8 +145,11 @@ ExitCode Run(const ConvertArguments& arguments, const std::stop_token& stop) {
   if (!document.ok()) return Fail(document.status());
   std::vector<WrittenFile> files;
   for (const std::string& path : arguments.outputs) files.push_back({path, ""});
-  ExitCode code = WriteGraphs(arguments, *document, bar, stop, files);
-  if (code == ExitCode::kOk) code = WriteDocuments(arguments, *document, bar, stop, files);
+  LocalTeam team(arguments.common.threads, stop);
+  ExitCode code = WriteGraphs(arguments, *document, bar, team.context(), files);
+  if (code == ExitCode::kOk) {
+    code = WriteDocuments(arguments, *document, bar, team.context(), files);
+  }
   if (code != ExitCode::kOk) return code;
   return Print(SummaryOf(arguments, files));
 }

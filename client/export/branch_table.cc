@@ -63,9 +63,9 @@ void AddRow(Text& text, const SkeletonGraph& graph, size_t n, uint32_t component
 }  // namespace
 
 std::string BranchTableText(const SkeletonGraph& graph, const GraphContext& context) {
-  Text text(context.stop);
+  Text text(context.exec.stop);
   AddHeader(text, context);
-  const GraphComponents components = ComponentsOf(graph, context.stop);
+  const GraphComponents components = ComponentsOf(graph, context.exec.stop);
   for (size_t n = 0; n < graph.edges.size() && !text.stopped(); ++n) {
     if (!context.labels.of_edges.empty()) text.Add(context.labels.of_edges[n], ',');
     AddRow(text, graph, n, components.of_node[graph.edges[n].source]);

@@ -4,11 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <vector>
 
 #include "client/export/method_facts.h"
+#include "core/exec/context.h"
 #include "core/skeleton/tree_order.h"
 
 namespace bccskel::exporting {
@@ -46,8 +46,9 @@ struct GraphContext {
   GraphLabels labels = {};
   MethodFacts facts = {};
   std::optional<TreeOrder> order = std::nullopt;
-  // Ends composing early; the file is then incomplete and must not be written.
-  std::stop_token stop = {};
+  // Who composes the file. A stop ends it early; the file is then incomplete and must not be
+  // written.
+  exec::Context exec = {};
 };
 
 inline std::optional<TreeOrder> OrderOf(const SkeletonGraph& graph,

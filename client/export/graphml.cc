@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "client/export/picture/escape.h"
+#include "client/export/shared_text.h"
 #include "client/export/text.h"
 #include "core/skeleton/node_kind_name.h"
 #include "core/skeleton/skeleton_figures.h"
@@ -155,18 +156,18 @@ void AddEdge(Text& text, const SkeletonGraph& graph, size_t n, const GraphContex
 }  // namespace
 
 std::string GraphMlText(const SkeletonGraph& graph, const GraphContext& context) {
-  Text text(context.stop);
+  Text text(context.exec.stop);
   text.Add(kHead);
   const bool has_births = graph.HasBirths();
   if (has_births) text.Add(kBirthKeys);
   AddContext(text, context);
-  const GraphComponents components = ComponentsOf(graph, context.stop);
-  for (size_t n = 0; n < graph.nodes.size() && !text.stopped(); ++n) {
-    AddNode(text, graph, n, components.of_node[n], context);
-  }
-  for (size_t n = 0; n < graph.edges.size() && !text.stopped(); ++n) {
-    AddEdge(text, graph, n, context, has_births);
-  }
+  const GraphComponents components = ComponentsOf(graph, context.exec.stop);
+  AddShared(text, graph.nodes.size(), context.exec, [&] {
+    return [&](Text& piece, size_t n) { AddNode(piece, graph, n, components.of_node[n], context); };
+  });
+  AddShared(text, graph.edges.size(), context.exec, [&] {
+    return [&](Text& piece, size_t n) { AddEdge(piece, graph, n, context, has_births); };
+  });
   text.Add("</graph>\n</graphml>\n");
   return std::move(text).Take();
 }

@@ -9,6 +9,7 @@
 
 #include "client/export/method_facts.h"
 #include "client/export/picture/escape.h"
+#include "client/export/shared_text.h"
 #include "client/export/text.h"
 #include "core/pipeline/notes.h"
 #include "core/skeleton/node_kind_name.h"
@@ -16,6 +17,8 @@
 
 namespace bccskel::exporting {
 namespace {
+
+constexpr std::string_view kBetweenItems = ",\n";
 
 // A JSON list; `write_item` writes each of `items`.
 template <typename Items, typename WriteItem>
@@ -50,10 +53,10 @@ void AddEdgeOrder(Text& text, const EdgeOrder& order) {
   }
 }
 
-void AddNode(Text& text, const SkeletonGraph& graph, const SkeletonNode& node, uint32_t component,
+void AddNode(Text& text, const SkeletonGraph& graph, size_t n, uint32_t component,
              const std::optional<TreeOrder>& order) {
-  text.Add("{\"id\":", &node - graph.nodes.data(), ",\"kind\":\"", NodeKindName(node.kind),
-           "\",\"position\":");
+  const SkeletonNode& node = graph.nodes[n];
+  text.Add("{\"id\":", n, ",\"kind\":\"", NodeKindName(node.kind), "\",\"position\":");
   AddPosition(text, graph.PositionOf(node.at));
   text.Add(",\"radius\":", graph.RadiusOf(node.at), ",\"component\":", component);
   if (node.at.birth > 0) text.Add(",\"birth\":", node.at.birth);
@@ -62,7 +65,7 @@ void AddNode(Text& text, const SkeletonGraph& graph, const SkeletonNode& node, u
     text.Add(",\"loops\":", node.loops);
   }
   if (order.has_value()) {
-    AddNodeOrder(text, order->nodes[static_cast<size_t>(&node - graph.nodes.data())]);
+    AddNodeOrder(text, order->nodes[n]);
   }
   text.Add('}');
 }
@@ -98,12 +101,12 @@ struct EdgeContext {
   const std::optional<TreeOrder>& order;
   bool has_births;
   bool has_shifts;
-  RadiusTexts& radii;
   JsonParts parts;
 };
 
-void AddEdge(Text& text, const SkeletonGraph& graph, const SkeletonEdge& edge,
-             const EdgeContext& context) {
+void AddEdge(Text& text, const SkeletonGraph& graph, size_t n, const EdgeContext& context,
+             RadiusTexts& radii) {
+  const SkeletonEdge& edge = graph.edges[n];
   const auto points = graph.PointsOf(edge);
   text.Add("{\"source\":", edge.source, ",\"target\":", edge.target, ",\"points\":");
   if (context.parts == JsonParts::kAll) {
@@ -113,7 +116,7 @@ void AddEdge(Text& text, const SkeletonGraph& graph, const SkeletonEdge& edge,
     text.Add("null");
   }
   text.Add(",\"radii\":");
-  AddList(text, ",", points, [&](const SkeletonPoint& p) { text.Add(context.radii.Of(p)); });
+  AddList(text, ",", points, [&](const SkeletonPoint& p) { text.Add(radii.Of(p)); });
   if (context.has_births) {
     text.Add(",\"births\":");
     AddList(text, ",", points, [&](const SkeletonPoint& p) { text.Add(p.birth); });
@@ -133,7 +136,7 @@ void AddEdge(Text& text, const SkeletonGraph& graph, const SkeletonEdge& edge,
   if (figures.tortuosity.has_value()) text.Add(",\"tortuosity\":", *figures.tortuosity);
   if (std::isfinite(edge.pruning_level)) text.Add(",\"pruning_level\":", edge.pruning_level);
   if (context.order.has_value()) {
-    AddEdgeOrder(text, context.order->edges[static_cast<size_t>(&edge - graph.edges.data())]);
+    AddEdgeOrder(text, context.order->edges[n]);
   }
   text.Add('}');
 }
@@ -181,24 +184,33 @@ void AddTimings(Text& text, const StageTimings& timings) {
 }  // namespace
 
 std::string JsonText(const SkeletonizeResult& result, const std::optional<TreeOrder>& order,
-                     const World& world, JsonParts parts, const std::stop_token& stop) {
+                     const World& world, JsonParts parts, const exec::Context& context) {
   const SkeletonGraph& graph = result.graph;
-  Text text(stop);
+  Text text(context.stop);
   // Too much rather than too little: memory that is not written to costs nothing.
   text.Reserve(4096 + 150 * graph.nodes.size() + 400 * graph.edges.size() +
                100 * (graph.points.size() + graph.sheets.size()));
   text.Add("{\n\"nodes\":");
-  const GraphComponents components = ComponentsOf(graph, stop);
-  AddList(text, ",\n", graph.nodes, [&](const SkeletonNode& n) {
-    AddNode(text, graph, n, components.of_node[static_cast<size_t>(&n - graph.nodes.data())],
-            order);
+  const GraphComponents components = ComponentsOf(graph, context.stop);
+  text.Add('[');
+  AddShared(text, graph.nodes.size(), context, [&] {
+    return [&](Text& piece, size_t n) {
+      piece.Add(n == 0 ? "" : kBetweenItems);
+      AddNode(piece, graph, n, components.of_node[n], order);
+    };
   });
-  RadiusTexts radii(graph);
-  const EdgeContext edges = {order, graph.HasBirths(), graph.HasShifts(), radii, parts};
-  text.Add(",\n\"edges\":");
-  AddList(text, ",\n", graph.edges, [&](const SkeletonEdge& e) { AddEdge(text, graph, e, edges); });
+  const EdgeContext edges = {order, graph.HasBirths(), graph.HasShifts(), parts};
+  text.Add("],\n\"edges\":[");
+  AddShared(text, graph.edges.size(), context, [&] {
+    return [&, radii = RadiusTexts(graph)](Text& piece, size_t n) mutable {
+      piece.Add(n == 0 ? "" : kBetweenItems);
+      AddEdge(piece, graph, n, edges, radii);
+    };
+  });
+  text.Add(']');
   text.Add(",\n\"sheets\":");
   if (parts == JsonParts::kAll) {
+    RadiusTexts radii(graph);
     AddSheets(text, graph, radii);
   } else {
     text.Add("null");

@@ -74,10 +74,12 @@ void LabeledSkeletons::Add(uint64_t label, uint64_t voxels, const SkeletonizeRes
   labels_.of_nodes.resize(all_.graph.nodes.size(), label);
   labels_.of_edges.resize(all_.graph.edges.size(), label);
   if (!keeps_json_) return;
+  exec::Context alone;
+  alone.stop = stop;
   json_ += json_.empty() ? "\n" : ",\n";
   json_ += "{\"label\":" + std::to_string(label) + ",\"voxels\":" + std::to_string(voxels) +
            ",\"skeleton\":" +
-           JsonText(result, OrderOf(result.graph, root_, stop), world_, JsonParts::kAll, stop) +
+           JsonText(result, OrderOf(result.graph, root_, stop), world_, JsonParts::kAll, alone) +
            "}";
 }
 
@@ -89,9 +91,11 @@ absl::Status LabeledSkeletons::AddObjects(const view::ObjectOfLabel& object,
   return absl::OkStatus();
 }
 
-GraphContext LabeledSkeletons::Context(const std::stop_token& stop) const {
-  return {
-      .labels = labels_, .facts = facts_, .order = OrderOf(all_.graph, root_, stop), .stop = stop};
+GraphContext LabeledSkeletons::Context(const exec::Context& exec) const {
+  return {.labels = labels_,
+          .facts = facts_,
+          .order = OrderOf(all_.graph, root_, exec.stop),
+          .exec = exec};
 }
 
 bool HoldsManyLabels(SkeletonFormat format) {
@@ -111,7 +115,7 @@ absl::StatusOr<std::string> WriteLabeledFile(const std::string& path,
     BCCSKEL_RETURN_IF_ERROR(WriteFileAtomically(path, skeletons.Json(), stop));
     return std::string();
   }
-  const GraphContext context = skeletons.Context(stop);
+  const GraphContext context = skeletons.Context(picture.context);
   if (!ShowsObject(format)) {
     return WriteGraphFile(
         path, {.graph = skeletons.all().graph, .context = context, .world = skeletons.world()});

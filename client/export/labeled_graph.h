@@ -40,7 +40,7 @@ class LabeledSkeletons {
   // All graphs side by side, with the sums of all certificates; the method of the first label.
   const SkeletonizeResult& all() const { return all_; }
   // Labels, the method of the first label, and the order of the trees if roots are chosen.
-  GraphContext Context(const std::stop_token& stop = {}) const;
+  GraphContext Context(const exec::Context& exec = {}) const;
   // {"labels": [{"label", "voxels", "skeleton"}, ...]}, each skeleton as JsonText() writes it.
   // Needs: a path that ends in .json.
   std::string Json() const { return "{\n\"labels\":[" + json_ + "\n]\n}\n"; }

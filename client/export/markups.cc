@@ -7,6 +7,7 @@
 
 #include "client/export/picture/escape.h"
 #include "client/export/sampled_curve.h"
+#include "client/export/shared_text.h"
 #include "core/lattice/length_unit.h"
 #include "core/skeleton/skeleton_figures.h"
 
@@ -116,12 +117,14 @@ std::string NoteOn(const World& world) {
 
 Document WriteMarkups(const SkeletonGraph& graph, const GraphContext& context, const World& world) {
   const Frame frame = FrameOf(world);
-  Text text(context.stop);
+  Text text(context.exec.stop);
   text.Add("{\"@schema\":\"", kSchema, "\",\n\"markups\":[");
-  for (size_t n = 0; n < graph.edges.size() && !text.stopped(); ++n) {
-    text.Add(n == 0 ? "\n" : ",\n");
-    AddCurve(text, graph, n, context, frame);
-  }
+  AddShared(text, graph.edges.size(), context.exec, [&] {
+    return [&](Text& piece, size_t n) {
+      piece.Add(n == 0 ? "\n" : ",\n");
+      AddCurve(piece, graph, n, context, frame);
+    };
+  });
   text.Add("\n]}\n");
   return {std::move(text).Take(), NoteOn(world)};
 }

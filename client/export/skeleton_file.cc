@@ -88,9 +88,10 @@ absl::StatusOr<Document> WithoutNote(absl::StatusOr<std::string> bytes) {
 }
 
 std::string JsonText(const Subject& subject, JsonParts parts = JsonParts::kAll) {
-  const std::stop_token& stop = subject.context.stop;
-  return exporting::JsonText(subject.result, OrderOf(subject.result.graph, subject.root, stop),
-                             subject.world, parts, stop);
+  const exec::Context& context = subject.context;
+  return exporting::JsonText(subject.result,
+                             OrderOf(subject.result.graph, subject.root, context.stop),
+                             subject.world, parts, context);
 }
 
 absl::StatusOr<view::Peeling> PeelingOf(const Subject& subject) {
@@ -118,19 +119,19 @@ std::optional<absl::StatusOr<Document>> ComposeGraph(SkeletonFormat format,
   const auto& [graph, context, world, sampling] = subject;
   switch (format) {
     case SkeletonFormat::kSwc:
-      return WriteSwc(graph, context.order, {sampling, world, context.stop});
+      return WriteSwc(graph, context.order, {sampling, world, context.exec.stop});
     case SkeletonFormat::kVtp:
       return WithoutNote(VtpText(graph, context));
     case SkeletonFormat::kGraphMl:
       return WithoutNote(GraphMlText(graph, context));
     case SkeletonFormat::kObj:
-      return WithoutNote(ObjText(graph, context.stop));
+      return WithoutNote(ObjText(graph, context.exec.stop));
     case SkeletonFormat::kCsv:
       return WithoutNote(BranchTableText(graph, context));
     case SkeletonFormat::kMarkups:
       return WriteMarkups(graph, context, world);
     case SkeletonFormat::kGlb:
-      return WithoutNote(GlbBytes(graph, context, world));
+      return WriteGlb(graph, context, world);
     default:
       return std::nullopt;
   }
@@ -214,13 +215,13 @@ absl::StatusOr<std::string> WriteSkeletonFile(const std::string& path, const Sub
                                .context = {.labels = {},
                                            .facts = MethodFactsOf(subject.result, subject.world),
                                            .order = OrderOf(graph, subject.root, stop),
-                                           .stop = stop},
+                                           .exec = subject.context},
                                .world = subject.world,
                                .swc = subject.swc});
 }
 
 absl::StatusOr<std::string> WriteGraphFile(const std::string& path, const GraphSubject& subject) {
-  const std::stop_token& stop = subject.context.stop;
+  const std::stop_token& stop = subject.context.exec.stop;
   BCCSKEL_ASSIGN_OR_RETURN(const SkeletonFormat format, SkeletonFormatOf(path));
   BCCSKEL_RETURN_IF_ERROR(CheckFinite(subject.graph));
   if (format == SkeletonFormat::kPrecomputed) {

@@ -75,16 +75,26 @@ ResultDocument::Labels LabelsOf(const SubjectLabels& subject) {
 }  // namespace
 
 absl::StatusOr<ResultDocument> DocumentOf(const Subject& subject) {
+  const exec::Context& context = subject.context;
   BCCSKEL_ASSIGN_OR_RETURN(ResultDocument document, FactsOf(subject.result, subject.world));
   if (subject.labels.has_value()) document.labels = LabelsOf(*subject.labels);
   const SkeletonGraph& graph = subject.result.graph;
   const bool births = graph.HasBirths(), shifts = graph.HasShifts();
-  document.nodes.reserve(graph.nodes.size());
-  for (const SkeletonNode& node : graph.nodes) document.nodes.push_back(NodeOf(graph, node));
-  document.edges.reserve(graph.edges.size());
-  for (const SkeletonEdge& edge : graph.edges) {
-    document.edges.push_back(EdgeOf(graph, edge, births, shifts));
-  }
+  constexpr size_t kAtOnce = 1024;
+  const auto add_nodes = [&](exec::Share share) {
+    for (size_t n = share.begin; n < share.end; ++n) {
+      document.nodes[n] = NodeOf(graph, graph.nodes[n]);
+    }
+  };
+  document.nodes.resize(graph.nodes.size());
+  BCCSKEL_RETURN_IF_ERROR(context.ForEachShare(graph.nodes.size(), kAtOnce, add_nodes));
+  const auto add_edges = [&](exec::Share share) {
+    for (size_t n = share.begin; n < share.end; ++n) {
+      document.edges[n] = EdgeOf(graph, graph.edges[n], births, shifts);
+    }
+  };
+  document.edges.resize(graph.edges.size());
+  BCCSKEL_RETURN_IF_ERROR(context.ForEachShare(graph.edges.size(), kAtOnce, add_edges));
   AddPoints(graph, graph.sheets, births, document.sheets);
   return document;
 }

@@ -10,7 +10,7 @@ namespace bccskel::exporting {
 // The subject's result as ParseResultDocument() reads it from JsonText(), but without the
 // document's text and roots, and with its labels. Writing and reading the text of a large graph
 // would take most of the time of a picture. Errors: INVALID_ARGUMENT for numbers that JSON cannot
-// hold.
+// hold; those of the context.
 absl::StatusOr<view::ResultDocument> DocumentOf(const Subject& subject);
 
 }  // namespace bccskel::exporting

@@ -73,9 +73,13 @@ class Text {
   void Append(const std::optional<Value>& value) {
     value.has_value() ? Append(*value) : Append(std::string_view("null"));
   }
-  // Space for at most `bytes` more bytes. Most calls do not reallocate.
+  // Space for at most `bytes` more bytes. Most calls do not grow the string, and those that do
+  // clear no more than a cache holds.
   char* Room(size_t bytes) {
-    if (text_.size() - used_ < bytes) text_.resize(used_ + bytes + used_ / 8);
+    constexpr size_t kMostAhead = size_t{1} << 16;
+    if (text_.size() - used_ < bytes) {
+      text_.resize(used_ + bytes + std::min(used_ / 8, kMostAhead));
+    }
     return text_.data() + used_;
   }
   // Writes the same as std::to_chars() in a tenth of the time, for whole numbers and halves, which

@@ -160,10 +160,10 @@ void AddCellData(Text& text, const SkeletonGraph& graph, const Polylines& polyli
 }  // namespace
 
 std::string VtpText(const SkeletonGraph& graph, const GraphContext& context) {
-  const Polylines polylines = PolylinesOf(graph, context.stop);
+  const Polylines polylines = PolylinesOf(graph, context.exec.stop);
   std::vector<std::vector<size_t>> vertices;
   for (size_t n : polylines.lone_points) vertices.push_back({n});
-  Text text(context.stop);
+  Text text(context.exec.stop);
   text.Add("<?xml version=\"1.0\"?>\n<!-- curve skeleton by bccskel -->\n",
            "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" ",
            "header_type=\"UInt64\">\n<PolyData>\n");

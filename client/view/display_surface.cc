@@ -15,6 +15,7 @@ namespace bccskel::view {
 namespace {
 
 constexpr double kShellWidth = 1;
+constexpr int kMostLayersAtOnce = 4;  // each takes memory for the cells of the object
 
 // A surface may have this many times the requested triangles before simplification: more take long
 // and are not visible.
@@ -49,13 +50,15 @@ absl::StatusOr<SurfaceMesh> SmoothMesh(const Volume& object, size_t most_triangl
                                        const exec::Context& context) {
   constexpr double kTrianglesPerPoint = 11;  // of ExtractSurface(), per point of the finest cells
   const double affordable = kExcess * static_cast<double>(most_triangles);
-  CellGrid grid = CellGrid::Of(object);
+  BCCSKEL_ASSIGN_OR_RETURN(CellGrid grid, CellGrid::Of(object, context));
   if (kTrianglesPerPoint * grid.TriangleEstimate() <= affordable) {
     BCCSKEL_ASSIGN_OR_RETURN(SurfaceMesh mesh, ExtractSurface(object, context));
     SmoothSurface(mesh, {});
     return mesh;
   }
-  while (grid.TriangleEstimate() > affordable && grid.keys().size() > 1) grid = grid.Halved();
+  while (grid.TriangleEstimate() > affordable && grid.keys().size() > 1) {
+    BCCSKEL_ASSIGN_OR_RETURN(grid, grid.Halved(context));
+  }
   BCCSKEL_ASSIGN_OR_RETURN(SurfaceMesh mesh, ExtractCellSurface(grid, context));
   SmoothSurface(mesh,
                 {.steps = 12, .reach = kCellReach * grid.edge(), .pull = 0.6f, .push = 0.62f});
@@ -113,18 +116,23 @@ Volume GoneAfter(int32_t shell, int32_t last_shell, const Volume& object,
 absl::StatusOr<Peeling> PeelLayers(const Volume& object, int32_t last_shell,
                                    const std::function<Volume(int32_t)>& later,
                                    const PeelingLimits& limits, const exec::Context& context) {
-  Peeling peeling = {.layers = {}, .last_shell = last_shell};
-  BCCSKEL_ASSIGN_OR_RETURN(DisplaySurface whole,
-                           MakeDisplaySurface(object, limits.object_triangles, context));
-  peeling.layers.push_back({0, std::move(whole)});
-  if (last_shell < 2) return peeling;
-  const int32_t layers = std::min(limits.layers, last_shell - 1);
-  for (int32_t n = 1; n <= layers; ++n) {
-    const int32_t shell = n * (last_shell - 1) / layers;
-    BCCSKEL_ASSIGN_OR_RETURN(DisplaySurface surface,
-                             MakeDisplaySurface(later(shell), limits.layer_triangles, context));
-    peeling.layers.push_back({shell, std::move(surface)});
-  }
+  Peeling peeling = {.layers = {{0, {}}}, .last_shell = last_shell};
+  const int32_t inner = std::max(0, std::min(limits.layers, last_shell - 1));
+  for (int32_t n = 1; n <= inner; ++n) peeling.layers.push_back({n * (last_shell - 1) / inner, {}});
+  std::vector<absl::Status> done(peeling.layers.size());
+  exec::Context alone = context;  // each layer is one thread's
+  alone.team = nullptr;
+  exec::Context few = context;
+  few.share = [&context] { return std::min(kMostLayersAtOnce, context.usable_threads()); };
+  BCCSKEL_RETURN_IF_ERROR(few.ForEachShare(done.size(), 1, [&](exec::Share share) {
+    auto& [shell, surface] = peeling.layers[share.begin];
+    absl::StatusOr<DisplaySurface> made =
+        shell == 0 ? MakeDisplaySurface(object, limits.object_triangles, alone)
+                   : MakeDisplaySurface(later(shell), limits.layer_triangles, alone);
+    done[share.begin] = made.status();
+    if (made.ok()) surface = *std::move(made);
+  }));
+  for (const absl::Status& status : done) BCCSKEL_RETURN_IF_ERROR(status);
   return peeling;
 }
 

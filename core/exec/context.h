@@ -86,6 +86,21 @@ class Context {
     });
   }
 
+  // Calls `work(share)` with shares of up to `at_once` items that together are 0..count-1, on all
+  // usable threads, in any order.
+  // Errors: those of StopStatus(); shares are then missing.
+  template <typename Work>
+  absl::Status ForEachShare(size_t count, size_t at_once, Work work) const {
+    Portions portions(count, at_once);
+    Offer([&](int /*worker*/) {
+      for (Share mine = portions.Take(); mine.begin < mine.end && !ShouldStop();
+           mine = portions.Take()) {
+        work(mine);
+      }
+    });
+    return StopStatus();
+  }
+
   // Offers this thread to more urgent work. Called where ShouldStop() is not called for more than
   // about a millisecond.
   void Yield() const {

@@ -94,7 +94,7 @@ Formats WorkFor(const Box& box, const IsIn& is_in, const SkeletonizeOptions& opt
   work.vtp = WorkOf([&] { exporting::VtpText(graph, {.order = order}); });
   work.swc = WorkOf([&] { exporting::WriteSwc(graph, order); });
   work.csv = WorkOf([&] { exporting::BranchTableText(graph, {.order = order}); });
-  work.glb = WorkOf([&] { exporting::GlbBytes(graph).status().IgnoreError(); });
+  work.glb = WorkOf([&] { exporting::WriteGlb(graph).status().IgnoreError(); });
   work.markups = WorkOf([&] { exporting::WriteMarkups(graph, {}, {}); });
   work.obj = WorkOf([&] { exporting::ObjText(graph); });
   return work;

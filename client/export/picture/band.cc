@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace bccskel::exporting {
 namespace {
@@ -13,9 +12,11 @@ struct Span {
   int end;
 };
 Span SpanOf(float low, float high, int first, int count) {
-  const float last = static_cast<float>(first + count - 1);
-  return {static_cast<int>(std::ceil(std::clamp(low, static_cast<float>(first), last + 1))),
-          static_cast<int>(std::floor(std::clamp(high, static_cast<float>(first) - 1, last))) + 1};
+  // Clamped to numbers from 0 on, which are faster to truncate than to round.
+  const auto start = static_cast<float>(first), end = static_cast<float>(first + count);
+  const float least = std::clamp(low, start, end), beyond = std::clamp(high + 1, start, end);
+  const auto begin = static_cast<int>(least);
+  return {begin + (static_cast<float>(begin) < least), static_cast<int>(beyond)};
 }
 
 using Weights = std::array<float, 3>;
@@ -34,21 +35,10 @@ std::array<float, 3> Mean(const std::vector<std::array<float, 3>>& of,
 
 Band::Band(int width, int top, int rows) : width_(width), top_(top), rows_(rows) {
   const size_t samples = Index(0, rows);
-  near_.assign(samples, {-kNothing, {}, {}});
-  far_.assign(samples, {kNothing, {}, {}});
-  bead_.assign(samples, {-kNothing, {}, {}});
-}
-
-void Band::Draw(const Geometry& geometry) {
-  std::vector<uint32_t> all(geometry.beads.size());
-  std::iota(all.begin(), all.end(), 0);
-  Draw(geometry, all);
-}
-
-void Band::Draw(const Geometry& geometry, std::span<const uint32_t> beads) {
-  for (size_t n = 0; n < geometry.glass.triangles.size(); ++n) DrawGlass(geometry, n);
-  for (const uint32_t n : beads) DrawBead(geometry.beads[n]);
-  for (const SurfaceTriangle& t : geometry.sheets.mesh.triangles) DrawSheet(geometry.sheets, t);
+  for (Hits* hits : {&near_, &far_, &bead_}) {
+    hits->depths.assign(samples, hits == &far_ ? kNothing : -kNothing);
+    hits->looks.resize(samples);
+  }
 }
 
 // Calls visit(index, depth, weights) for each sample that a triangle covers: its depth there and
@@ -77,37 +67,52 @@ void Band::ForEachSample(const SurfaceMesh& mesh, const SurfaceTriangle& triangl
   }
 }
 
-void Band::DrawGlass(const Geometry& geometry, size_t n) {
-  const SurfaceTriangle& triangle = geometry.glass.triangles[n];
-  const LinearColor& tint = geometry.tints.empty() ? kGlassTint : geometry.tints[n];
-  ForEachSample(geometry.glass, triangle, [&](size_t at, float depth, const Weights& weights) {
-    const Hit hit = {depth, Mean(geometry.normals, triangle, weights), tint};
-    if (hit.depth > near_[at].depth) near_[at] = hit;
-    if (hit.depth < far_[at].depth) far_[at] = hit;
-  });
+void Band::DrawGlass(const Geometry& geometry, std::span<const uint32_t> triangles) {
+  for (const uint32_t n : triangles) {
+    const SurfaceTriangle& triangle = geometry.glass.triangles[n];
+    const LinearColor& tint = geometry.tints.empty() ? kGlassTint : geometry.tints[n];
+    ForEachSample(geometry.glass, triangle, [&](size_t at, float depth, const Weights& weights) {
+      if (depth <= near_.depths[at] && depth >= far_.depths[at]) return;
+      const Hit hit = {depth, Mean(geometry.normals, triangle, weights), tint};
+      if (hit.depth > near_.depths[at]) near_.Set(at, hit);
+      if (hit.depth < far_.depths[at]) far_.Set(at, hit);
+    });
+  }
 }
 
-void Band::DrawSheet(const SheetGeometry& sheets, const SurfaceTriangle& triangle) {
-  ForEachSample(sheets.mesh, triangle, [&](size_t at, float depth, const Weights& weights) {
-    if (depth <= bead_[at].depth) return;
-    bead_[at] = {depth, Mean(sheets.normals, triangle, weights),
-                 Mean(sheets.colors, triangle, weights)};
-  });
+void Band::DrawBeads(const std::vector<Bead>& beads, std::span<const uint32_t> some) {
+  for (const uint32_t n : some) DrawBead(beads[n]);
+}
+
+void Band::DrawSheets(const SheetGeometry& sheets) {
+  for (const SurfaceTriangle& triangle : sheets.mesh.triangles) {
+    ForEachSample(sheets.mesh, triangle, [&](size_t at, float depth, const Weights& weights) {
+      if (depth <= bead_.depths[at]) return;
+      bead_.Set(at, {depth, Mean(sheets.normals, triangle, weights),
+                     Mean(sheets.colors, triangle, weights)});
+    });
+  }
 }
 
 void Band::DrawBead(const Bead& bead) {
   const Span rows = SpanOf(bead.y - bead.radius, bead.y + bead.radius, top_, rows_);
   const Span columns = SpanOf(bead.x - bead.radius, bead.x + bead.radius, 0, width_);
+  if (rows.begin >= rows.end || columns.begin >= columns.end) return;
+  across_.clear();
+  for (int x = columns.begin; x < columns.end; ++x) {
+    across_.push_back((static_cast<float>(x) - bead.x) / bead.radius);
+  }
+  const float nearest = bead.depth + bead.radius;
   for (int y = rows.begin; y < rows.end; ++y) {
-    for (int x = columns.begin; x < columns.end; ++x) {
-      const float dx = (static_cast<float>(x) - bead.x) / bead.radius;
-      const float dy = (bead.y - static_cast<float>(y)) / bead.radius;
-      const float rest = 1 - dx * dx - dy * dy;
+    const float dy = (bead.y - static_cast<float>(y)) / bead.radius;
+    const size_t first = Index(columns.begin, y - top_);
+    for (size_t n = 0; n < across_.size(); ++n) {
+      const float hidden = bead_.depths[first + n];
+      if (nearest <= hidden) continue;
+      const float dx = across_[n], rest = 1 - dx * dx - dy * dy;
       if (rest < 0) continue;
-      const float rise = std::sqrt(rest);
-      const size_t at = Index(x, y - top_);
-      if (bead.depth + bead.radius * rise <= bead_[at].depth) continue;
-      bead_[at] = {bead.depth + bead.radius * rise, {dx, dy, rise}, bead.color};
+      const float rise = std::sqrt(rest), depth = bead.depth + bead.radius * rise;
+      if (depth > hidden) bead_.Set(first + n, {depth, {dx, dy, rise}, bead.color});
     }
   }
 }

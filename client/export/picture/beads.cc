@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
+
+#include "core/exec/status_macros.h"
 
 namespace bccskel::exporting {
 namespace {
@@ -16,69 +19,42 @@ PanelPoint Between(const PanelPoint& a, const PanelPoint& b, double part) {
   return {a.x + part * (b.x - a.x), a.y + part * (b.y - a.y), a.depth + part * (b.depth - a.depth)};
 }
 
-class Stringer {
- public:
-  Stringer(const view::ResultDocument& result, const Projection& projection, double thickness)
-      : projection_(projection),
-        thickness_(thickness),
-        colors_(result),
-        step_(projection.scale() * LengthOf(result) > kMany ? std::max(1.0, thickness) : 1) {
-    beads_.reserve(MostBeads(result));
-  }
+constexpr size_t kAtOnce = 2048;  // edges and nodes
 
-  void AddEdge(const view::ResultDocument::Edge& edge) {
-    const std::vector<WorldPoint> curve = SmoothedForDisplay(edge.points);
+// A bead per unit, but one per radius where there are very many: the notches between them are then
+// still far below a pixel.
+constexpr double kMany = 4e6;
+
+// One view.
+struct Stringer {
+  const CurveColors& colors;
+  const Projection& projection;
+  double thickness;
+  double step;
+
+  void AddEdge(const view::ResultDocument::Edge& edge, const std::vector<WorldPoint>& curve,
+               std::vector<Bead>& beads) const {
+    if (curve.empty()) return;
+    PanelPoint to = projection.Project(curve.front());
     for (size_t n = 1; n < curve.size(); ++n) {
-      const PanelPoint from = projection_.Project(curve[n - 1]), to = projection_.Project(curve[n]);
-      const int steps = 1 + static_cast<int>(std::hypot(to.x - from.x, to.y - from.y) / step_);
-      for (int step = 0; step < steps; ++step) {
-        const double part = static_cast<double>(step) / steps;
+      const PanelPoint from = std::exchange(to, projection.Project(curve[n]));
+      const int steps = 1 + static_cast<int>(std::hypot(to.x - from.x, to.y - from.y) / step);
+      for (int k = 0; k < steps; ++k) {
+        const double part = static_cast<double>(k) / steps;
         const double radius = edge.radii[n - 1] + part * (edge.radii[n] - edge.radii[n - 1]);
-        beads_.push_back(BeadAt(Between(from, to, part), thickness_,
-                                LinearOf(colors_.Rgb(colors_.NumberAt(edge, radius)))));
+        beads.push_back(BeadAt(Between(from, to, part), thickness,
+                               LinearOf(colors.Rgb(colors.NumberAt(edge, radius)))));
       }
     }
   }
 
-  void AddNode(const view::ResultDocument::Node& node) {
+  void AddNode(const view::ResultDocument::Node& node, std::vector<Bead>& beads) const {
     if (node.kind == "loop") return;  // represents its curve only
     const LinearColor& color = node.kind == "end"        ? kEndColor
                                : node.kind == "junction" ? kJunctionColor
                                                          : kOtherColor;
-    beads_.push_back(BeadAt(projection_.Project(node.position), 1.9 * thickness_, color));
+    beads.push_back(BeadAt(projection.Project(node.position), 1.9 * thickness, color));
   }
-
-  std::vector<Bead> Take() && { return std::move(beads_); }
-
- private:
-  // A bead per unit, but one per radius where there are very many: the notches between them are
-  // then still far below a pixel.
-  static constexpr double kMany = 4e6;
-  static double LengthOf(const view::ResultDocument& result) {
-    double length = 0;
-    for (const view::ResultDocument::Edge& edge : result.edges) length += edge.length;
-    return length;
-  }
-
-  // By the points: documents may state any length.
-  size_t MostBeads(const view::ResultDocument& result) const {
-    size_t most = result.nodes.size();
-    double length = 0;
-    for (const view::ResultDocument::Edge& edge : result.edges) {
-      most += edge.points.size();
-      for (size_t n = 1; n < edge.points.size(); ++n) {
-        const WorldPoint &a = edge.points[n - 1], &b = edge.points[n];
-        length += std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
-      }
-    }
-    return most + static_cast<size_t>(projection_.scale() * length / step_);
-  }
-
-  const Projection& projection_;
-  const double thickness_;
-  const CurveColors colors_;
-  const double step_;
-  std::vector<Bead> beads_;
 };
 
 }  // namespace
@@ -115,12 +91,40 @@ RadiusRange RadiusRangeOf(const view::ResultDocument& result) {
   return range;
 }
 
-std::vector<Bead> BeadsOf(const view::ResultDocument& result, const Projection& projection,
-                          double thickness) {
-  Stringer stringer(result, projection, thickness);
-  for (const view::ResultDocument::Edge& edge : result.edges) stringer.AddEdge(edge);
-  for (const view::ResultDocument::Node& node : result.nodes) stringer.AddNode(node);
-  return std::move(stringer).Take();
+BeadStrings::BeadStrings(const view::ResultDocument& result) : result_(result), colors_(result) {
+  for (const view::ResultDocument::Edge& edge : result.edges) length_ += edge.length;
+  curves_.resize(result.edges.size());
+}
+
+absl::StatusOr<BeadStrings> BeadStrings::Of(const view::ResultDocument& result,
+                                            const exec::Context& context) {
+  BeadStrings strings(result);
+  const auto smooth = [&](exec::Share share) {
+    for (size_t n = share.begin; n < share.end; ++n) {
+      strings.curves_[n] = SmoothedForDisplay(result.edges[n].points);
+    }
+  };
+  BCCSKEL_RETURN_IF_ERROR(context.ForEachShare(result.edges.size(), kAtOnce, smooth));
+  return strings;
+}
+
+absl::StatusOr<Beads> BeadStrings::In(const Projection& projection, double thickness,
+                                      const exec::Context& context) const {
+  const bool many = projection.scale() * length_ > kMany;
+  const Stringer stringer = {colors_, projection, thickness, many ? std::max(1.0, thickness) : 1};
+  const size_t edges = result_.edges.size(), count = edges + result_.nodes.size();
+  Beads beads((count + kAtOnce - 1) / kAtOnce);
+  BCCSKEL_RETURN_IF_ERROR(context.ForEachShare(count, kAtOnce, [&](exec::Share share) {
+    std::vector<Bead>& part = beads[share.begin / kAtOnce];
+    for (size_t n = share.begin; n < share.end; ++n) {
+      if (n < edges) {
+        stringer.AddEdge(result_.edges[n], curves_[n], part);
+      } else {
+        stringer.AddNode(result_.nodes[n - edges], part);
+      }
+    }
+  }));
+  return beads;
 }
 
 }  // namespace bccskel::exporting

@@ -2,11 +2,14 @@
 #define BCCSKEL_CLIENT_EXPORT_PICTURE_BEADS_H_
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
+#include "absl/status/statusor.h"
 #include "client/export/picture/display_curve.h"
 #include "client/export/picture/projection.h"
 #include "client/view/result_document.h"
+#include "core/exec/context.h"
 
 namespace bccskel::exporting {
 
@@ -20,6 +23,9 @@ struct Bead {
   float radius;
   LinearColor color;
 };
+
+// In parts, of which threads make one at a time: large nets have millions.
+using Beads = std::vector<std::vector<Bead>>;
 
 RadiusRange RadiusRangeOf(const view::ResultDocument& result);
 
@@ -52,7 +58,7 @@ class CurveColors {
 
   const view::ResultDocument::Labels& labels_;
   const view::ResultDocument::Sheets& sheets_;
-  const RadiusRange range_;
+  RadiusRange range_;
   std::vector<std::array<double, 3>> colors_;  // 0..255 each
 };
 
@@ -61,10 +67,30 @@ inline constexpr LinearColor kJunctionColor = {0.12f, 0.16f, 0.22f};
 inline constexpr LinearColor kOtherColor = {0.01f, 0.52f, 0.78f};
 
 // The skeleton as strings of beads that overlap so closely that they look like tubes, colored by
-// radius, with a larger bead per node.
-// Units: `thickness`, the radius of a tube, in units of the projection.
-std::vector<Bead> BeadsOf(const view::ResultDocument& result, const Projection& projection,
-                          double thickness);
+// radius, with a larger bead per node. Needs: the result outlives it.
+class BeadStrings {
+ public:
+  // Errors: those of the context.
+  static absl::StatusOr<BeadStrings> Of(const view::ResultDocument& result,
+                                        const exec::Context& context);
+
+  // Units: `thickness`, the radius of a tube, in units of the projection.
+  // Errors: those of the context.
+  absl::StatusOr<Beads> In(const Projection& projection, double thickness,
+                           const exec::Context& context) const;
+
+  const CurveColors& colors() const { return colors_; }
+  // Of an edge, smoothed.
+  const std::vector<WorldPoint>& curve(size_t edge) const { return curves_[edge]; }
+
+ private:
+  explicit BeadStrings(const view::ResultDocument& result);
+
+  const view::ResultDocument& result_;
+  CurveColors colors_;
+  double length_ = 0;  // of all edges
+  std::vector<std::vector<WorldPoint>> curves_;
+};
 
 }  // namespace bccskel::exporting
 

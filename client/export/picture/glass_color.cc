@@ -56,11 +56,11 @@ LinearColor BeadColor(const Hit& bead) {
 
 LinearColor ColorAt(const Band& band, int x, int row) {
   LinearColor color = kPaperColor;
-  const Hit &near = band.near_glass(x, row), &far = band.far_glass(x, row);
-  const Hit& bead = band.bead(x, row);
-  if (far.depth < near.depth) CoverWithGlass(color, far, 0.15f);
+  const Hit near = band.near_glass(x, row), bead = band.bead(x, row);
   if (bead.depth != -kNothing) {
     Cover(color, BeadColor(bead), 1);
+  } else if (const Hit far = band.far_glass(x, row); far.depth < near.depth) {
+    CoverWithGlass(color, far, 0.15f);
   }
   if (near.depth > bead.depth) CoverWithGlass(color, near, 0.8f);
   return color;

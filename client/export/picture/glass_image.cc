@@ -3,8 +3,8 @@
 #include <png.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
+#include <optional>
 #include <span>
 
 #include "client/export/picture/glass_color.h"
@@ -33,29 +33,40 @@ uint32_t PixelAt(const Band& band, int x, int row, int samples) {
   return pixel;
 }
 
-using BeadsOfBands = std::vector<std::vector<uint32_t>>;  // in their order
+// What is in each band: large nets have millions of beads, too many for every band to look at.
+struct Sorted {
+  ItemsOfBands glass;
+  std::vector<std::optional<ItemsOfBands>> beads;  // by part
+};
 
-// Large nets have millions of beads, too many for every band to look at.
-BeadsOfBands SortIntoBands(const std::vector<Bead>& beads, int samples, int height) {
-  BeadsOfBands bands(static_cast<size_t>((height + kBandRows - 1) / kBandRows));
-  const auto band_at = [&](float y) {
-    const float last = static_cast<float>(bands.size() - 1);
-    return static_cast<size_t>(
-        std::clamp(std::floor(y / static_cast<float>(kBandRows * samples)), 0.0f, last));
+absl::StatusOr<Sorted> SortIntoBands(const Geometry& geometry, size_t bands, int samples,
+                                     const exec::Context& context) {
+  const SurfaceMesh& glass = geometry.glass;
+  const auto rows_of_triangle = [&](size_t n) {
+    const auto& [a, b, c] = glass.triangles[n];
+    return std::minmax({-glass.vertices[a][1], -glass.vertices[b][1], -glass.vertices[c][1]});
   };
-  for (uint32_t n = 0; n < beads.size(); ++n) {
-    const Bead& bead = beads[n];
-    const size_t last = band_at(bead.y + bead.radius);
-    for (size_t band = band_at(bead.y - bead.radius); band <= last; ++band)
-      bands[band].push_back(n);
-  }
-  return bands;
+  const int rows = kBandRows * samples;
+  Sorted sorted = {ItemsOfBands(glass.triangles.size(), bands, rows, rows_of_triangle), {}};
+  sorted.beads.resize(geometry.beads.size());
+  BCCSKEL_RETURN_IF_ERROR(context.ForEachShare(sorted.beads.size(), 1, [&](exec::Share share) {
+    const std::vector<Bead>& part = geometry.beads[share.begin];
+    sorted.beads[share.begin].emplace(part.size(), bands, rows, [&](size_t n) {
+      return std::pair(part[n].y - part[n].radius, part[n].y + part[n].radius);
+    });
+  }));
+  return sorted;
 }
 
-void DrawBand(const Geometry& geometry, std::span<const uint32_t> beads, int top, int rows,
-              int samples, RgbImage& image) {
+void DrawBand(const Geometry& geometry, const Sorted& sorted, size_t n, int samples,
+              RgbImage& image) {
+  const int top = kBandRows * static_cast<int>(n), rows = std::min(kBandRows, image.height - top);
   Band band(samples * image.width, samples * top, samples * rows);
-  band.Draw(geometry, beads);
+  band.DrawGlass(geometry, sorted.glass.In(n));
+  for (size_t part = 0; part < geometry.beads.size(); ++part) {
+    band.DrawBeads(geometry.beads[part], sorted.beads[part]->In(n));
+  }
+  band.DrawSheets(geometry.sheets);
   auto pixel = image.pixels.begin() + static_cast<ptrdiff_t>(top) * image.width;
   for (int row = 0; row < rows; ++row) {
     for (int x = 0; x < image.width; ++x) *pixel++ = PixelAt(band, x, row, samples);
@@ -91,15 +102,11 @@ absl::StatusOr<RgbImage> ImageOf(const Geometry& geometry, int width, int height
                                  const exec::Context& context) {
   RgbImage image = {width, height, {}};
   image.pixels.resize(static_cast<size_t>(width) * static_cast<size_t>(height));
-  const BeadsOfBands beads = SortIntoBands(geometry.beads, samples, height);
-  std::atomic<int> next = 0;
-  context.Offer([&](int) {
-    for (int top; !context.ShouldStop() && (top = kBandRows * next++) < height;) {
-      DrawBand(geometry, beads[static_cast<size_t>(top / kBandRows)], top,
-               std::min(kBandRows, height - top), samples, image);
-    }
-  });
-  BCCSKEL_RETURN_IF_ERROR(context.StopStatus());
+  const auto bands = static_cast<size_t>((height + kBandRows - 1) / kBandRows);
+  BCCSKEL_ASSIGN_OR_RETURN(const Sorted sorted, SortIntoBands(geometry, bands, samples, context));
+  BCCSKEL_RETURN_IF_ERROR(context.ForEachShare(bands, 1, [&](exec::Share share) {
+    DrawBand(geometry, sorted, share.begin, samples, image);
+  }));
   return image;
 }
 

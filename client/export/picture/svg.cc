@@ -47,20 +47,21 @@ struct Scene {
   const SvgContent& content;
   const view::ResultDocument& result;
   std::vector<WorldPoint> shown;
-  CurveColors colors;
+  BeadStrings strings;
   bool dense;  // thin lines and small nodes
   bool drawn;  // curves and nodes are in the glass images
 };
 
-Scene SceneOf(const SvgContent& content) {
+absl::StatusOr<Scene> SceneOf(const SvgContent& content) {
+  BCCSKEL_ASSIGN_OR_RETURN(BeadStrings strings, BeadStrings::Of(content.result, content.context));
   size_t points = content.result.nodes.size();
   for (const view::ResultDocument::Edge& edge : content.result.edges) points += edge.points.size();
-  return {.content = content,
-          .result = content.result,
-          .shown = view::ShownPoints(content.result, content.surface.vertices),
-          .colors = CurveColors(content.result),
-          .dense = content.result.nodes.size() > 300,
-          .drawn = points > kMostPoints};
+  return Scene{.content = content,
+               .result = content.result,
+               .shown = view::ShownPoints(content.result, content.surface.vertices),
+               .strings = std::move(strings),
+               .dense = content.result.nodes.size() > 300,
+               .drawn = points > kMostPoints};
 }
 
 double BoldnessIn(const PanelSize& panel) { return panel.width > 500 ? 1 : 0.7; }
@@ -75,15 +76,18 @@ double SpacingOf(const view::ResultDocument& result) {
 }
 
 // Curves, nodes and points of sheets.
-std::vector<Bead> BeadsOf(const Scene& scene, const Projection& projection, double thickness) {
-  std::vector<Bead> beads = BeadsOf(scene.result, projection, thickness);
+absl::StatusOr<Beads> BeadsOf(const Scene& scene, const Projection& projection, double thickness) {
+  BCCSKEL_ASSIGN_OR_RETURN(Beads beads,
+                           scene.strings.In(projection, thickness, scene.content.context));
+  std::vector<Bead>& of_sheets = beads.emplace_back();
+  const CurveColors& colors = scene.strings.colors();
   const view::ResultDocument::Sheets& sheets = scene.result.sheets;
   const double radius = std::max(SpacingOf(scene.result) * projection.scale() / 2, thickness / 2);
   for (size_t n = 0; n < sheets.points.size(); ++n) {
     const PanelPoint p = projection.Project(sheets.points[n]);
-    beads.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.depth),
-                     static_cast<float>(radius),
-                     LinearOf(scene.colors.Rgb(scene.colors.NumberOfSheet(n)))});
+    of_sheets.push_back({static_cast<float>(p.x), static_cast<float>(p.y),
+                         static_cast<float>(p.depth), static_cast<float>(radius),
+                         LinearOf(colors.Rgb(colors.NumberOfSheet(n)))});
   }
   return beads;
 }
@@ -96,7 +100,8 @@ absl::StatusOr<std::string> GlassImage(const Scene& scene, const View& view, con
                               (kMargin - kRim) * kSamples);
   Geometry geometry = GlassOf(scene.content.surface, projection);
   if (scene.drawn) {
-    geometry.beads = BeadsOf(scene, projection, StrokeWidth(scene, boldness) / 2 * kSamples);
+    BCCSKEL_ASSIGN_OR_RETURN(
+        geometry.beads, BeadsOf(scene, projection, StrokeWidth(scene, boldness) / 2 * kSamples));
   }
   BCCSKEL_ASSIGN_OR_RETURN(const RgbImage image,
                            ImageOf(geometry, static_cast<int>(size.width * kPixelsPerUnit),
@@ -113,12 +118,14 @@ struct Stroke {
 };
 
 // Cuts a curve where its color changes, and often enough that strokes can be sorted by depth.
-void AppendStrokes(const view::ResultDocument::Edge& edge, const CurveColors& colors,
-                   const Projection& projection, std::vector<Stroke>& strokes) {
+void AppendStrokes(const Scene& scene, size_t number, const Projection& projection,
+                   std::vector<Stroke>& strokes) {
   constexpr size_t kLongest = 12;
-  const std::vector<WorldPoint> curve = SmoothedForDisplay(edge.points);
+  const view::ResultDocument::Edge& edge = scene.result.edges[number];
+  const std::vector<WorldPoint>& curve = scene.strings.curve(number);
   for (size_t n = 1; n < curve.size(); ++n) {
-    const int color = colors.NumberAt(edge, (edge.radii[n - 1] + edge.radii[n]) / 2);
+    const int color =
+        scene.strings.colors().NumberAt(edge, (edge.radii[n - 1] + edge.radii[n]) / 2);
     const PanelPoint p = projection.Project(curve[n - 1]);
     const bool starts =
         n == 1 || strokes.back().color != color || strokes.back().points.size() >= kLongest;
@@ -129,8 +136,8 @@ void AppendStrokes(const view::ResultDocument::Edge& edge, const CurveColors& co
 
 std::vector<Stroke> StrokesFromBack(const Scene& scene, const Projection& projection) {
   std::vector<Stroke> strokes;
-  for (const view::ResultDocument::Edge& edge : scene.result.edges) {
-    AppendStrokes(edge, scene.colors, projection, strokes);
+  for (size_t n = 0; n < scene.result.edges.size(); ++n) {
+    AppendStrokes(scene, n, projection, strokes);
   }
   std::ranges::stable_sort(strokes, {}, &Stroke::depth);
   return strokes;
@@ -166,7 +173,7 @@ void AddSheets(Text& svg, const Scene& scene, const Projection& projection) {
   const view::ResultDocument::Sheets& sheets = scene.result.sheets;
   std::vector<ColoredDot> dots;
   for (size_t n = 0; n < sheets.points.size(); ++n) {
-    dots.push_back({projection.Project(sheets.points[n]), scene.colors.NumberOfSheet(n)});
+    dots.push_back({projection.Project(sheets.points[n]), scene.strings.colors().NumberOfSheet(n)});
   }
   std::ranges::stable_sort(dots, {}, [](const ColoredDot& dot) { return dot.at.depth; });
   svg.Add("<g fill=\"none\" stroke-linecap=\"round\" stroke-width=\"",
@@ -174,8 +181,8 @@ void AddSheets(Text& svg, const Scene& scene, const Projection& projection) {
   for (size_t n = 0; n < dots.size(); ++n) {
     const bool starts = n == 0 || dots[n].color != dots[n - 1].color;
     if (starts)
-      svg.Add(n == 0 ? "" : "\"/>\n", "<path stroke=\"", HexColor(scene.colors.Rgb(dots[n].color)),
-              "\" d=\"");
+      svg.Add(n == 0 ? "" : "\"/>\n", "<path stroke=\"",
+              HexColor(scene.strings.colors().Rgb(dots[n].color)), "\" d=\"");
     svg.Add("M", Rounded(dots[n].at.x), ' ', Rounded(dots[n].at.y), "h0");
   }
   svg.Add(dots.empty() ? "" : "\"/>\n", "</g>\n");
@@ -222,7 +229,8 @@ absl::Status AddPanel(Text& svg, const Scene& scene, const Panel& panel, const V
           image.height, "\" href=\"data:image/png;base64,", absl::Base64Escape(png), "\"/>\n");
   if (!scene.drawn) {
     AddSheets(svg, scene, projection);
-    AddStrokes(svg, StrokesFromBack(scene, projection), scene.colors, StrokeWidth(scene, boldness));
+    AddStrokes(svg, StrokesFromBack(scene, projection), scene.strings.colors(),
+               StrokeWidth(scene, boldness));
     AddNodes(svg, scene.result, projection, (scene.dense ? 1.8 : 3.6) * boldness);
   }
   AddAxes(svg, view, panel.size);
@@ -265,7 +273,7 @@ void AddLegend(Text& svg, const Scene& scene) {
   if (scene.result.labels.has_value()) {
     AddLegendText(svg, 20, "start", "each label in its own color");
   } else {
-    AddRadiusLegend(svg, scene.colors.range());
+    AddRadiusLegend(svg, scene.strings.colors().range());
   }
   AddNodeLegend(svg, 520, "end", "end");
   AddNodeLegend(svg, 588, "junction", "junction");
@@ -293,7 +301,7 @@ void AddHead(Text& svg, const SvgContent& content) {
 }  // namespace
 
 absl::StatusOr<std::string> SvgText(const SvgContent& content) {
-  const Scene scene = SceneOf(content);
+  BCCSKEL_ASSIGN_OR_RETURN(const Scene scene, SceneOf(content));
   const std::array<View, 3> views =
       view::ViewsOf(view::FrontOf(content.result, content.surface.vertices));
   Text svg;

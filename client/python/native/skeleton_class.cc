@@ -223,15 +223,16 @@ absl::Status CheckHeldByRead(SkeletonFormat format) {
 
 // As `bccskel convert`.
 absl::StatusOr<std::string> SaveRead(const Outcome& outcome, const std::string& path,
-                                     const Saying& saying, const std::stop_token& stop) {
+                                     const Saying& saying, const exec::Context& context) {
   return exporting::WriteGraphFile(
-      path, {.graph = outcome.result.graph,
-             .context = {.labels = {},
-                         .facts = exporting::MethodFactsOf(*outcome.read),
-                         .order = exporting::OrderOf(outcome.result.graph, outcome.root, stop),
-                         .stop = stop},
-             .world = saying.world,
-             .swc = saying.swc});
+      path,
+      {.graph = outcome.result.graph,
+       .context = {.labels = {},
+                   .facts = exporting::MethodFactsOf(*outcome.read),
+                   .order = exporting::OrderOf(outcome.result.graph, outcome.root, context.stop),
+                   .exec = context},
+       .world = saying.world,
+       .swc = saying.swc});
 }
 
 absl::StatusOr<std::string> SaveIn(const Outcome& outcome, const std::string& path,
@@ -241,14 +242,13 @@ absl::StatusOr<std::string> SaveIn(const Outcome& outcome, const std::string& pa
       outcome.result.skeleton_points > 0) {
     return absl::UnimplementedError("servers do not send the lattice points of labels");
   }
+  cli::LocalTeam team(0, stop);
   if (outcome.read.has_value()) {
     BCCSKEL_RETURN_IF_ERROR(CheckHeldByRead(format));
-    return SaveRead(outcome, path, saying, stop);
+    return SaveRead(outcome, path, saying, team.context());
   }
-  const bool shown = exporting::ShowsObject(format);
-  cli::LocalTeam team(shown ? 0 : 1, stop);
   auto object = std::make_shared<const Volume>();
-  if (shown) {
+  if (exporting::ShowsObject(format)) {
     BCCSKEL_ASSIGN_OR_RETURN(object, outcome.Object());
   }
   const exporting::Subject subject = {.result = outcome.result,

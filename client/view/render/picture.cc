@@ -76,8 +76,8 @@ std::vector<exporting::ViewNormal> NormalsOfEitherSide(const SurfaceMesh& mesh) 
   return normals;
 }
 
-Geometry GeometryOf(const ResultDocument& result, const DisplaySurface& surface,
-                    const PictureOptions& options) {
+absl::StatusOr<Geometry> GeometryOf(const ResultDocument& result, const DisplaySurface& surface,
+                                    const PictureOptions& options, const exec::Context& context) {
   const std::vector<WorldPoint> shown = ShownPoints(result, surface.vertices);
   const exporting::Projection projection = ProjectionOf(result, surface, shown, options);
   Geometry geometry = exporting::GlassOf(surface, projection);
@@ -85,18 +85,22 @@ Geometry GeometryOf(const ResultDocument& result, const DisplaySurface& surface,
   geometry.sheets.mesh = {exporting::VerticesOf(sheets.vertices, projection),
                           std::move(sheets.triangles)};
   geometry.sheets.normals = NormalsOfEitherSide(geometry.sheets.mesh);
-  const exporting::CurveColors colors(result);
+  BCCSKEL_ASSIGN_OR_RETURN(const exporting::BeadStrings strings,
+                           exporting::BeadStrings::Of(result, context));
+  const exporting::CurveColors& colors = strings.colors();
   for (size_t n = 0; n < sheets.radii.size(); ++n) {
     geometry.sheets.colors.push_back(
         exporting::LinearOf(colors.Rgb(colors.NumberOf(sheets.labels, n, sheets.radii[n]))));
   }
   const double thickness =
       kSamplesPerPixel * std::min(options.width, options.height) / 320.0 * ThinnedBy(result, shown);
-  geometry.beads = exporting::BeadsOf(result, projection, thickness);
+  BCCSKEL_ASSIGN_OR_RETURN(geometry.beads, strings.In(projection, thickness, context));
   const auto above = static_cast<float>(kSamplesPerPixel * kWordsAbove * FontSize(options));
   for (SurfaceVertex& v : geometry.glass.vertices) v[1] -= above;
   for (SurfaceVertex& v : geometry.sheets.mesh.vertices) v[1] -= above;
-  for (exporting::Bead& bead : geometry.beads) bead.y += above;
+  for (std::vector<exporting::Bead>& part : geometry.beads) {
+    for (exporting::Bead& bead : part) bead.y += above;
+  }
   return geometry;
 }
 
@@ -224,9 +228,10 @@ absl::Status CheckCairo(cairo_status_t status) {
 
 absl::StatusOr<std::string> RenderPng(const ResultDocument& result, const DisplaySurface& surface,
                                       const PictureOptions& options, const exec::Context& context) {
-  BCCSKEL_ASSIGN_OR_RETURN(exporting::RgbImage image,
-                           exporting::ImageOf(GeometryOf(result, surface, options), options.width,
-                                              options.height, kSamplesPerPixel, context));
+  BCCSKEL_ASSIGN_OR_RETURN(const Geometry geometry, GeometryOf(result, surface, options, context));
+  BCCSKEL_ASSIGN_OR_RETURN(
+      exporting::RgbImage image,
+      exporting::ImageOf(geometry, options.width, options.height, kSamplesPerPixel, context));
   const Surface drawn(cairo_image_surface_create_for_data(
                           reinterpret_cast<unsigned char*>(image.pixels.data()), CAIRO_FORMAT_RGB24,
                           image.width, image.height, 4 * image.width),

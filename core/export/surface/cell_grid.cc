@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <bit>
-#include <map>
 #include <span>
 
+#include "core/exec/status_macros.h"
 #include "core/lattice/directions.h"
 
 namespace bccskel {
@@ -37,12 +37,19 @@ int FacesInside(const CellGrid::Fills& fills, size_t axis) {
   return faces;
 }
 
-// Where a cell of a brick lies when bricks are halved.
-int HalfPlaceOf(int cell, const BrickCoordinates& brick) {
-  const int x = (brick.bx & 1) * kBrickX + PlaceOf(cell, 0);
-  const int y = (brick.by & 1) * kBrickY + PlaceOf(cell, 1);
-  const int z = (brick.bz & 1) * kBrickZ + PlaceOf(cell, 2);
-  return (x / 2) * kSteps[0] + (y / 2) * kSteps[1] + (z / 2) * kSteps[2];
+// The part of a halved brick that consists of one brick's cells.
+void Halve(const CellGrid::Fills& from, const BrickCoordinates& brick, CellGrid::Fills& to) {
+  for (int z = 0; z < kBrickZ; z += 2) {
+    for (int y = 0; y < kBrickY; y += 2) {
+      for (int x = 0; x < kBrickX; x += 2) {
+        int sum = 7;  // rounds up
+        for (int n = 0; n < 8; ++n)
+          sum += from[CellAt(x + (n & 1), y + (n >> 1 & 1), z + (n >> 2))];
+        to[CellAt(((brick.bx & 1) * kBrickX + x) / 2, ((brick.by & 1) * kBrickY + y) / 2,
+                  ((brick.bz & 1) * kBrickZ + z) / 2)] = static_cast<uint8_t>(sum / 8);
+      }
+    }
+  }
 }
 
 // The cells of a brick and those after them along each axis: the even points that have one of these
@@ -73,50 +80,74 @@ void KeepThoseWithoutOddNeighbors(const Volume& object, const BrickCoordinates& 
   });
 }
 
+constexpr size_t kBricksAtOnce = 256;
+
+BrickKey Odd(const BrickCoordinates& brick) {
+  return BrickKey({brick.bx, brick.by, brick.bz, Sublattice::kOdd});
+}
+
+void MakeUnique(std::vector<BrickKey>& keys) {
+  std::ranges::sort(keys);
+  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+}
+
+CellGrid::Fills FillsOf(const Volume& object, BrickCoordinates brick) {
+  BrickBits points;
+  brick.sublattice = Sublattice::kEven;
+  if (const auto even = object.Find(BrickKey(brick))) {
+    points = object.bricks()[*even];
+    KeepThoseWithoutOddNeighbors(object, brick, points);
+  }
+  brick.sublattice = Sublattice::kOdd;
+  if (const auto odd = object.Find(BrickKey(brick))) points |= object.bricks()[*odd];
+  CellGrid::Fills fills = {};
+  points.ForEachSetBit([&](int bit) { fills[static_cast<size_t>(bit)] = 255; });
+  return fills;
+}
+
 }  // namespace
 
-CellGrid CellGrid::Of(const Volume& object) {
-  std::map<BrickKey, Fills> cells;
-  for (size_t n = 0; n < object.brick_count(); ++n) {
-    const BrickCoordinates brick = object.keys()[n].coordinates();
-    const BrickKey key({brick.bx, brick.by, brick.bz, Sublattice::kOdd});
-    BrickBits points = object.bricks()[n];
-    if (brick.sublattice == Sublattice::kEven) {
-      KeepThoseWithoutOddNeighbors(object, brick, points);
-      if (points.Empty()) continue;
-    }
-    Fills& fills = cells[key];
-    points.ForEachSetBit([&](int bit) { fills[static_cast<size_t>(bit)] = 255; });
-  }
+absl::StatusOr<CellGrid> CellGrid::Of(const Volume& object, const exec::Context& context) {
   CellGrid grid;
-  grid.keys_.reserve(cells.size());
-  grid.fills_.reserve(cells.size());
-  for (const auto& [key, fills] : cells) {
-    grid.keys_.push_back(key);
-    grid.fills_.push_back(fills);
-  }
+  for (const BrickKey key : object.keys()) grid.keys_.push_back(Odd(key.coordinates()));
+  MakeUnique(grid.keys_);
+  grid.fills_.resize(grid.keys_.size());
+  const auto fill = [&](exec::Share share) {
+    for (size_t n = share.begin; n < share.end; ++n) {
+      grid.fills_[n] = FillsOf(object, grid.keys_[n].coordinates());
+    }
+  };
+  BCCSKEL_RETURN_IF_ERROR(context.ForEachShare(grid.keys_.size(), kBricksAtOnce, fill));
   return grid;
 }
 
-CellGrid CellGrid::Halved() const {
-  using Sums = std::array<uint16_t, kBrickPoints>;
-  std::map<BrickKey, Sums> sums;
-  for (size_t n = 0; n < keys_.size(); ++n) {
-    const BrickCoordinates brick = keys_[n].coordinates();
-    Sums& into = sums[BrickKey({brick.bx / 2, brick.by / 2, brick.bz / 2, Sublattice::kOdd})];
-    for (int cell = 0; cell < kBrickPoints; ++cell) {
-      uint16_t& sum = into[static_cast<size_t>(HalfPlaceOf(cell, brick))];
-      sum = static_cast<uint16_t>(sum + fills_[n][static_cast<size_t>(cell)]);
-    }
-  }
+absl::StatusOr<CellGrid> CellGrid::Halved(const exec::Context& context) const {
   CellGrid grid;
   grid.edge_ = 2 * edge_;
-  for (const auto& [key, cells] : sums) {
-    grid.keys_.push_back(key);
-    std::ranges::transform(cells, grid.fills_.emplace_back().begin(),
-                           [](uint16_t sum) { return static_cast<uint8_t>((sum + 7) / 8); });
+  for (const BrickKey key : keys_) {
+    const BrickCoordinates brick = key.coordinates();
+    grid.keys_.push_back(Odd({brick.bx / 2, brick.by / 2, brick.bz / 2, Sublattice::kOdd}));
   }
+  MakeUnique(grid.keys_);
+  grid.fills_.resize(grid.keys_.size());
+  const auto fill = [&](exec::Share share) {
+    for (size_t n = share.begin; n < share.end; ++n) {
+      grid.fills_[n] = HalvedFills(grid.keys_[n].coordinates());
+    }
+  };
+  BCCSKEL_RETURN_IF_ERROR(context.ForEachShare(grid.keys_.size(), kBricksAtOnce, fill));
   return grid;
+}
+
+CellGrid::Fills CellGrid::HalvedFills(const BrickCoordinates& half) const {
+  Fills fills = {};
+  for (int n = 0; n < 8; ++n) {
+    const BrickCoordinates brick = {2 * half.bx + (n & 1), 2 * half.by + (n >> 1 & 1),
+                                    2 * half.bz + (n >> 2), Sublattice::kOdd};
+    const std::optional<size_t> found = Find(brick.bx, brick.by, brick.bz);
+    if (found) Halve(fills_[*found], brick, fills);
+  }
+  return fills;
 }
 
 double CellGrid::TriangleEstimate() const {

@@ -6,10 +6,17 @@
 #include <optional>
 #include <vector>
 
+#include "absl/status/statusor.h"
+#include "core/exec/context.h"
 #include "core/export/surface/surface_mesh.h"
 #include "core/volume/volume.h"
 
 namespace bccskel {
+
+// The place of a cell in its brick, in bit order.
+constexpr size_t CellAt(int x, int y, int z) {
+  return static_cast<size_t>(x + kBrickX * (y + kBrickY * z));
+}
 
 // An object as cubes, for surfaces of objects too large to be shown point by point. A cube stands
 // for an odd point of the lattice, or for 8, 64, ... of them. The exact conversion of an image has
@@ -20,10 +27,11 @@ class CellGrid {
   using Fills = std::array<uint8_t, kBrickPoints>;
 
   // Cells of 2 lattice units. An even point without an odd neighbor takes the cell above it.
-  static CellGrid Of(const Volume& object);
+  // Errors: those of the context.
+  static absl::StatusOr<CellGrid> Of(const Volume& object, const exec::Context& context);
 
-  // Cells twice as wide.
-  CellGrid Halved() const;
+  // Cells twice as wide. Errors: those of the context.
+  absl::StatusOr<CellGrid> Halved(const exec::Context& context) const;
 
   float edge() const { return edge_; }  // lattice units
   // About: counted inside of bricks, and the share between bricks added.
@@ -34,6 +42,8 @@ class CellGrid {
   std::optional<size_t> Find(int32_t bx, int32_t by, int32_t bz) const;
 
  private:
+  Fills HalvedFills(const BrickCoordinates& half) const;
+
   float edge_ = 2;
   std::vector<BrickKey> keys_;
   std::vector<Fills> fills_;

@@ -16,9 +16,6 @@ constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
 
 using Ids = std::array<uint32_t, kBrickPoints>;
 
-constexpr size_t CellAt(int x, int y, int z) {
-  return static_cast<size_t>(x + kBrickX * (y + kBrickY * z));
-}
 constexpr int PaddedAt(int x, int y, int z) {
   return (x + 1) + kPadX * ((y + 1) + kPadY * (z + 1));
 }

@@ -44,7 +44,7 @@ Json SceneOf(const std::string& glb) {
 TEST(GlbTest, HasANamedNodeAndATubePerBranch) {
   for (const Sample& sample : Samples()) {
     const SkeletonGraph& graph = sample.result.graph;
-    const Json scene = SceneOf(*GlbBytes(graph));
+    const Json scene = SceneOf(WriteGlb(graph)->text);
     EXPECT_EQ(scene["nodes"].size(), 1 + graph.edges.size());
     EXPECT_EQ(scene.value("meshes", Json::array()).size(), graph.edges.size());
     for (size_t n = 0; n < graph.edges.size(); ++n) {
@@ -55,7 +55,7 @@ TEST(GlbTest, HasANamedNodeAndATubePerBranch) {
 
 TEST(GlbTest, TubesAreAsThickAsTheObjectAndCornersAreVertices) {
   const SkeletonGraph graph = Lollipop();
-  const std::string glb = *GlbBytes(graph);
+  const std::string glb = WriteGlb(graph)->text;
   const Json scene = SceneOf(glb);
   const size_t binary = 20 + WordAt(glb, 12) + 8;
   for (const Json& mesh : scene["meshes"]) {
@@ -74,6 +74,50 @@ TEST(GlbTest, TubesAreAsThickAsTheObjectAndCornersAreVertices) {
   EXPECT_LT(stem["max"][0].get<double>() - stem["min"][0].get<double>(), 2 + 2 + 4);
 }
 
+// Many short edges side by side.
+SkeletonGraph Comb(uint32_t edges) {
+  SkeletonGraph graph;
+  for (uint32_t n = 0; n < edges; ++n) {
+    const auto at = static_cast<int32_t>(4 * n);
+    for (const int32_t z : {0, 2}) {
+      SkeletonNode node;
+      node.kind = NodeKind::kEnd;
+      node.at.point = {at, 0, z};
+      node.at.radius = 2;
+      graph.nodes.push_back(node);
+      graph.points.push_back(node.at);
+    }
+    graph.edges.push_back(
+        {.source = 2 * n, .target = 2 * n + 1, .first_point = 2 * n, .point_count = 2});
+  }
+  return graph;
+}
+
+TEST(GlbTest, VeryManyTubesAreOneMeshAndANoteSaysSo) {
+  const Document many = *WriteGlb(Comb(20'001)), fewer = *WriteGlb(Comb(20'000));
+  EXPECT_THAT(fewer.note, IsEmpty());
+  EXPECT_THAT(many.note, HasSubstr("20001 branches are one mesh without their names"));
+  const Json scene = SceneOf(many.text), single = SceneOf(fewer.text);
+  EXPECT_EQ(single["meshes"].size(), 20'000);
+  ASSERT_EQ(scene["meshes"].size(), 1);
+  ASSERT_EQ(scene["nodes"].size(), 2);
+  EXPECT_EQ(scene["nodes"][1]["name"], "branches");
+  const Json& primitive = scene["meshes"][0]["primitives"][0];
+  const Json& positions = scene["accessors"][primitive["attributes"]["POSITION"].get<size_t>()];
+  const Json& corners = scene["accessors"][primitive["indices"].get<size_t>()];
+  const size_t per_tube = single["accessors"][0]["count"];
+  EXPECT_EQ(positions["count"], 20'001 * per_tube);
+  EXPECT_NEAR(positions["max"][0].get<double>() - positions["min"][0].get<double>(), 40'002, 1);
+  std::set<uint32_t> used;
+  const size_t binary = 20 + WordAt(many.text, 12) + 8;
+  const size_t first = scene["bufferViews"][1]["byteOffset"];
+  for (size_t n = 0; n < corners["count"]; ++n) {
+    used.insert(WordAt(many.text, binary + first + 4 * n));
+  }
+  EXPECT_EQ(used.size(), positions["count"].get<size_t>());
+  EXPECT_EQ(*used.rbegin() + 1, positions["count"].get<uint32_t>());
+}
+
 TEST(GlbTest, TubesOfLabelsHaveTheColorsOfTheLabels) {
   SkeletonizeResult result;
   result.graph = Lollipop();
@@ -81,7 +125,7 @@ TEST(GlbTest, TubesOfLabelsHaveTheColorsOfTheLabels) {
   three.Add(3, 1, result);
   three.Add(5, 1, {});  // preparation may leave nothing
   three.Add(9, 1, result);
-  const std::string glb = *GlbBytes(three.all().graph, three.Context());
+  const std::string glb = WriteGlb(three.all().graph, three.Context())->text;
   const Json scene = SceneOf(glb);
   const size_t binary = 20 + WordAt(glb, 12) + 8;
   std::map<std::string, std::set<uint32_t>> colors;  // by the label of the name
@@ -101,9 +145,9 @@ TEST(GlbTest, TubesOfLabelsHaveTheColorsOfTheLabels) {
 
 TEST(GlbTest, KeepsItsFigureFarFromTheOrigin) {
   SkeletonGraph graph = Lollipop();
-  const Json near = SceneOf(*GlbBytes(graph))["accessors"][0]["max"];
+  const Json near = SceneOf(WriteGlb(graph)->text)["accessors"][0]["max"];
   for (double& coordinate : graph.placement.origin) coordinate += 1e9;
-  const Json far = SceneOf(*GlbBytes(graph))["accessors"][0]["max"];
+  const Json far = SceneOf(WriteGlb(graph)->text)["accessors"][0]["max"];
   for (size_t axis = 0; axis < 3; ++axis) {
     EXPECT_NEAR(far[axis].get<double>(), near[axis].get<double>(), 1e-4);
   }
@@ -112,22 +156,22 @@ TEST(GlbTest, KeepsItsFigureFarFromTheOrigin) {
 TEST(GlbTest, RefusesWhatNoFloatHolds) {
   SkeletonGraph graph = Lollipop();
   graph.placement.spacing = {1e40, 1e40, 1e40};
-  const absl::Status status = GlbBytes(graph).status();
+  const absl::Status status = WriteGlb(graph).status();
   EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
   EXPECT_EQ(status.message(), "the skeleton's coordinates do not fit a float32");
 }
 
 TEST(GlbTest, TurnsTheWorldUnlessItsYPointsUp) {
   const SkeletonGraph graph = Lollipop();
-  const Json z_up = SceneOf(*GlbBytes(graph))["nodes"][0];
-  const Json y_up = SceneOf(*GlbBytes(graph, {}, {.axes = kYUp, .unit = {}}))["nodes"][0];
+  const Json z_up = SceneOf(WriteGlb(graph)->text)["nodes"][0];
+  const Json y_up = SceneOf(WriteGlb(graph, {}, {.axes = kYUp, .unit = {}})->text)["nodes"][0];
   EXPECT_TRUE(z_up.contains("rotation"));
   EXPECT_FALSE(y_up.contains("rotation"));
   EXPECT_EQ(z_up["translation"][1], y_up["translation"][2]);
 }
 
 TEST(GlbTest, NothingIsAnEmptyScene) {
-  EXPECT_EQ(SceneOf(*GlbBytes(SkeletonGraph()))["nodes"].size(), 1);
+  EXPECT_EQ(SceneOf(WriteGlb(SkeletonGraph())->text)["nodes"].size(), 1);
 }
 
 TEST(MarkupsTest, HasACurvePerBranch) {

@@ -126,16 +126,18 @@ TEST(ComposingTest, EndsAfterAStop) {
   std::stop_source stop;
   const auto sizes = [&] {
     const std::stop_token token = stop.get_token();
-    const GraphContext context = {.labels = {}, .facts = {}, .order = {}, .stop = token};
+    exec::Context context_of_job;
+    context_of_job.stop = token;
+    const GraphContext context = {.labels = {}, .facts = {}, .order = {}, .exec = context_of_job};
     return std::vector<size_t>{
         WriteSwc(graph, std::nullopt, {.sampling = {}, .world = {}, .stop = token}).text.size(),
         VtpText(graph, context).size(),
         GraphMlText(graph, context).size(),
         ObjText(graph, token).size(),
-        JsonText(sample.result, std::nullopt, {}, JsonParts::kAll, token).size(),
+        JsonText(sample.result, std::nullopt, {}, JsonParts::kAll, context_of_job).size(),
         BranchTableText(graph, context).size(),
         WriteMarkups(graph, context, {}).text.size(),
-        GlbBytes(graph, context)->size()};
+        WriteGlb(graph, context)->text.size()};
   };
   const std::vector<size_t> whole = sizes();
   stop.request_stop();

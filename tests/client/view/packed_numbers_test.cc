@@ -46,16 +46,42 @@ TEST(PackedNumbersTest, NumbersThatGrowSlowlyTakeLittleRoom) {
   EXPECT_LT(PackNumbers(numbers)->size(), 1000u);
 }
 
-TEST(PackedNumbersTest, LongTextsComeBackAndEndAfterAStop) {
-  std::string text;
-  for (uint32_t n = 0; text.size() < 5'000'000; ++n) text += std::to_string(n * 2654435761u);
-  std::string back(text.size(), '\0');
-  uLongf size = back.size();
-  const std::string packed = *Deflate(text);
-  ASSERT_EQ(uncompress(reinterpret_cast<Bytef*>(back.data()), &size,
+std::string Inflate(const std::string& packed, size_t size) {
+  std::string back(size + 1, '\0');
+  uLongf written = back.size();
+  EXPECT_EQ(uncompress(reinterpret_cast<Bytef*>(back.data()), &written,
                        reinterpret_cast<const Bytef*>(packed.data()), packed.size()),
             Z_OK);
-  EXPECT_TRUE(back == text);
+  back.resize(written);
+  return back;
+}
+
+std::string LongText() {
+  std::string text;
+  for (uint32_t n = 0; text.size() < 5'000'000; ++n) text += std::to_string(n * 2654435761u);
+  return text;
+}
+
+TEST(PackedNumbersTest, TextsOfAnyLengthComeBack) {
+  const std::string text = LongText();
+  constexpr size_t kPiece = size_t{1} << 19;  // of Deflate()
+  for (const size_t size : {size_t{0}, size_t{1}, kPiece - 1, kPiece, kPiece + 1, 3 * kPiece,
+                            3 * kPiece + 40'000, text.size()}) {
+    const std::string part = text.substr(0, size);
+    EXPECT_TRUE(Inflate(*Deflate(part), size) == part) << size;
+  }
+}
+
+TEST(PackedNumbersTest, ThreadsPackTheSameBytes) {
+  const std::string text = LongText();
+  exec::WorkerTeam team(3);
+  exec::Context context;
+  context.team = &team;
+  EXPECT_TRUE(*Deflate(text, context) == *Deflate(text));
+}
+
+TEST(PackedNumbersTest, LongTextsEndAfterAStop) {
+  const std::string text = LongText();
   std::stop_source stop;
   stop.request_stop();
   exec::Context context;

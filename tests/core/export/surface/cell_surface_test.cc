@@ -16,8 +16,8 @@ namespace {
 using test::EnclosedBy;
 
 CellGrid GridOf(std::span<const LatticePoint> points, int halvings) {
-  CellGrid grid = CellGrid::Of(VolumeOfPoints(points));
-  for (int n = 0; n < halvings; ++n) grid = grid.Halved();
+  CellGrid grid = *CellGrid::Of(VolumeOfPoints(points), {});
+  for (int n = 0; n < halvings; ++n) grid = *grid.Halved({});
   return grid;
 }
 
