@@ -21,7 +21,9 @@ namespace {
 // and override it.
 void AddPreset(CLI::App& command, SkeletonizeOptions& options) {
   std::vector<std::string> names;
-  std::string text = "Options for a kind of data; explicit options override them:";
+  std::string text =
+      "Options for a kind of data; explicit options override them (flags as "
+      "--fill-cavities=false):";
   for (const Preset& preset : Presets()) {
     names.push_back(preset.name);
     text += std::string("\n") + preset.name + " = " + OptionsOf(preset) + ": " + preset.data;
@@ -49,8 +51,12 @@ void AddPreparing(CLI::App& command, PreparingOptions& preparing) {
                   "limbs one or two lattice units thick (default 0)")
       ->check(Within(0, kMaxDenoisePasses))
       ->option_text("N");
-  command.add_flag_callback(
-      "--fill-cavities", [&preparing] { preparing.cavities = CavityFilling::kOn; },
+  // With "=false", flags override those of a preset.
+  command.add_flag_function(
+      "--fill-cavities",
+      [&preparing](int64_t given) {
+        preparing.cavities = given > 0 ? CavityFilling::kOn : CavityFilling::kOff;
+      },
       "Fill the cavities of the object; each leaves a closed surface in the skeleton");
   command
       .add_option(
@@ -70,13 +76,21 @@ void AddPreparing(CLI::App& command, PreparingOptions& preparing) {
                   "Drop components smaller than X cubic world units (default 0)")
       ->check(Within(0, std::numeric_limits<double>::max()))
       ->option_text("X");
-  command.add_flag_callback(
-      "--keep-largest", [&preparing] { preparing.components = KeptComponents::kLargest; },
+  command.add_flag_function(
+      "--keep-largest",
+      [&preparing](int64_t given) {
+        preparing.components = given > 0 ? KeptComponents::kLargest : KeptComponents::kAll;
+      },
       "Drop all components but the largest");
   command
-      .add_option("--cut-loops", preparing.tunnel_width,
-                  "Fill tunnels narrower than X world units; each makes a loop in the skeleton "
-                  "(default 0: none)")
+      .add_option_function<double>(
+          "--cut-loops",
+          [&preparing](double width) {
+            preparing.tunnel_width = width;
+            preparing.tunnel_cells = 0;
+          },
+          "Fill tunnels narrower than X world units; each makes a loop in the skeleton "
+          "(default 0: none)")
       ->check(Within(0, kMaxTunnelWidthToFill))
       ->option_text("X");
 }

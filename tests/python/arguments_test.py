@@ -2,6 +2,7 @@
 
 import inspect
 import pathlib
+import warnings
 
 import bccskel
 import harness
@@ -160,6 +161,15 @@ class ArgumentsTest(harness.TestCase):
     def test_flags_that_are_off_and_options_that_are_none_do_nothing(self):
         self.assertEqual(bccskel.skeletonize(MASK, fill_cavities=False, threshold=None).sha256,
                          bccskel.skeletonize(MASK).sha256)
+
+    def test_options_override_those_of_a_preset(self):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            own = bccskel.skeletonize(MASK, preset="airway", fill_cavities=False, cut_loops=0,
+                                      keep_largest=False)
+        self.assertEqual(own.sha256, bccskel.skeletonize(MASK).sha256)
+        self.assertEqual(own.options["cavities"], "kept")
+        self.assertEqual(own.options["tunnel_cells"], 0)
 
     def test_meshes(self):
         vertices, faces = box_mesh()

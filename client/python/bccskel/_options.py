@@ -88,7 +88,7 @@ _OF_LABELS = {"min_component": "min_voxels"}
 
 
 def texts_of(function: str, kind: str, options: Mapping[str, Any], to_xyz: list) -> list:
-    """(name, text) for each option that is not None; no text for a flag."""
+    """(name, text) for each option that is not None; no text for a flag that is set."""
     names = _native.option_names(kind)
     texts = []
     for name, value in options.items():
@@ -105,8 +105,7 @@ def texts_of(function: str, kind: str, options: Mapping[str, Any], to_xyz: list)
         if _native.is_flag(kind, name):
             if not isinstance(value, (bool, np.bool_)):
                 raise TypeError(f"{name} must be True or False, got {value!r}")
-            if value:
-                texts.append((name, None))
+            texts.append((name, None if value else "false"))
         elif name == "voxel_size" and isinstance(value, numbers.Real):
             texts.append((name, _text(name, value)))
         elif name in _PLACES and not isinstance(value, str):

@@ -88,6 +88,18 @@ TEST(ArgumentsTest, OptionsOverruleTheirPresetWhereverTheyStand) {
             neuron.preparing);
   EXPECT_EQ(skeletonize({"--min-component", "7", "--preset", "neuron"}).preparing,
             neuron.preparing);
+  for (const char* width : {"0", "2.5"}) {
+    const PreparingOptions cut =
+        skeletonize({"--cut-loops", width, "--preset", "neuron"}).preparing;
+    EXPECT_EQ(cut.tunnel_width, std::stod(width));
+    EXPECT_EQ(cut.tunnel_cells, 0);
+  }
+  const PreparingOptions without =
+      skeletonize({"--preset", "airway", "--fill-cavities=false", "--keep-largest=false"})
+          .preparing;
+  EXPECT_EQ(without.cavities, CavityFilling::kOff);
+  EXPECT_EQ(without.components, KeptComponents::kAll);
+  EXPECT_GT(without.tunnel_cells, 0);
   EXPECT_EQ(skeletonize({"--preset", "cad", "--pruning-threshold", "3"}).pruning.threshold, 3);
   const Parsed unknown = Parse("skeletonize a.off -o a.swc --preset cat");
   for (const char* other : {"--pruning=relative-length", "--kind=surface"}) {
