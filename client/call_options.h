@@ -6,6 +6,7 @@
 #include <functional>
 #include <span>
 #include <stop_token>
+#include <string>
 #include <vector>
 
 #include "core/exec/context.h"
@@ -42,6 +43,9 @@ struct CallOptions {
   // in several parts; then, as shell `last_shell + 1`, the points removed by clean-up and pruning.
   // No point is left out. Called like on_shell.
   std::function<void(int32_t shell, std::span<const LatticePoint>)> on_shell_points = {};
+  // Called when the connection broke after the server had stored the job of this name: the call
+  // waits for the server, about two minutes, and goes on where it was.
+  std::function<void(const std::string& job)> on_lost = {};
   // Called once, at the end of an attempt that succeeds on one stream.
   std::function<void(const CallTimes&)> on_times = {};
 };

@@ -174,6 +174,7 @@ class GrpcStub : public Stub {
                                                 Clock::time_point deadline) {
     DurableClient client(MakeDurableStub(channel_), kOutlastRestart);
     if (absl::IsUnavailable(error)) {
+      if (options.on_lost) options.on_lost(accepted.job);
       const auto left =
           std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now());
       return ResumeCall(client, accepted, volume, options, left);

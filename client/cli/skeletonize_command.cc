@@ -147,6 +147,12 @@ absl::StatusOr<SkeletonizeResult> OnServer(const SkeletonizeArguments& arguments
   options.timeout = arguments.timeout;
   options.stop = stop;
   options.on_shell = listeners.bar.Callback("waiting for the server");
+  std::string lost;
+  options.on_lost = [&](const std::string& job) {
+    lost = job;
+    Warn("lost the connection to " + arguments.server.address + "; waiting for the server, up to " +
+         "two minutes, to go on with " + job);
+  };
   if (listeners.shells.has_value()) {
     options.on_shell_points = [&](int32_t shell, std::span<const LatticePoint> points) {
       listeners.shells->Add(shell, points);
@@ -154,7 +160,12 @@ absl::StatusOr<SkeletonizeResult> OnServer(const SkeletonizeArguments& arguments
   }
   BCCSKEL_ASSIGN_OR_RETURN(const client::Endpoint endpoint, EndpointOf(arguments.server));
   BCCSKEL_ASSIGN_OR_RETURN(std::unique_ptr<client::Stub> stub, client::MakeGrpcStub(endpoint));
-  return client::SkeletonizeClient(std::move(stub)).Skeletonize(object, options);
+  absl::StatusOr<SkeletonizeResult> result =
+      client::SkeletonizeClient(std::move(stub)).Skeletonize(object, options);
+  if (!absl::IsUnavailable(result.status()) || lost.empty()) return result;
+  return absl::UnavailableError(absl::StrCat(
+      result.status().message(), "; once the server is back, `bccskel fetch ", lost, " -o FILE ",
+      "--server ", arguments.server.address, "` gets the result if all of the object was sent"));
 }
 
 absl::StatusOr<SkeletonizeResult> OnThisMachine(const SkeletonizeArguments& arguments,

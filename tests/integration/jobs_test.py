@@ -170,6 +170,9 @@ class JobsTest(harness.TestCase):
         with Server(self.folder, *flags, name="second", listen=listen) as server:
             _, error = calling.communicate(timeout=240)
             self.assertEqual(calling.returncode, 0, error)
+            [name] = self.jobs(server)
+            self.assertIn("warning: lost the connection to " + listen, error)
+            self.assertIn("to go on with " + name, error)
             self.assertEqual([job["attempts"] >= 1 for job in self.jobs(server).values()], [True])
 
 
