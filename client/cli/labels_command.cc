@@ -32,6 +32,7 @@
 #include "core/import/image/image_info.h"
 #include "core/import/image/open_image.h"
 #include "core/labels/skeletonize_labels.h"
+#include "core/pipeline/notes.h"
 
 namespace bccskel::cli {
 
@@ -47,6 +48,7 @@ struct LabelFigures {
   size_t edges = 0;
   Certificate certificate;
   std::vector<PreparingStep> preparing;
+  std::vector<std::string> notes;
   std::string sha256;
 };
 
@@ -147,7 +149,8 @@ void AddLabelJson(Text& text, const LabelFigures& label) {
            ",\"object_points\":", label.object_points,
            ",\"skeleton_points\":", label.skeleton_points, ",\"nodes\":", label.nodes,
            ",\"edges\":", label.edges, ",\"certificate\":", exporting::CertificateJson(certificate),
-           ",\"topology_kept\":", KeptJson(certificate), ",\"sha256\":\"", label.sha256, "\"}");
+           ",\"topology_kept\":", KeptJson(certificate), ",\"notes\":", JsonStrings(label.notes),
+           ",\"sha256\":\"", label.sha256, "\"}");
 }
 
 std::string SummaryJson(const LabelsSummary& summary) {
@@ -172,7 +175,23 @@ LabelFigures FiguresOf(const LabelSkeleton& skeleton) {
           .edges = result.graph.edges.size(),
           .certificate = result.certificate,
           .preparing = result.preparing,
+          .notes = NotesOn(result),
           .sha256 = result.sha256};
+}
+
+// Notes on many labels would hide each other.
+void WarnOfNotes(const std::string& input, const std::vector<LabelFigures>& labels) {
+  constexpr size_t kShown = 3;
+  size_t noted = 0;
+  for (const LabelFigures& label : labels) {
+    if (label.notes.empty() || ++noted > kShown) continue;
+    for (const std::string& note : label.notes) {
+      Warn(absl::StrFormat("%s: label %d: %s", input, label.label, note));
+    }
+  }
+  if (noted <= kShown) return;
+  Warn(absl::StrFormat("%s: there are notes on %s; --json shows all", input,
+                       Counted(noted - kShown, "more label", "more labels")));
 }
 
 // Text, or one JSON object on one line, as requested.
@@ -297,6 +316,7 @@ ExitCode Run(const LabelsArguments& arguments, const std::stop_token& stop) {
   computed = Compute(arguments, labels->objects, deliver, team.context());
   if (!writing.ok()) return FailWith(ExitCode::kOutput, writing);
   if (!computed.ok()) return FailComputing(arguments, computed);
+  WarnOfNotes(arguments.input, figures);
   absl::StatusOr<std::vector<WrittenFile>> written = std::move(files).Finish(bar, team.context());
   if (!written.ok()) return FailWith(ExitCode::kOutput, written.status());
   return Print(LabelsSummaryOf({arguments, labels->info, labels->left_out, std::move(figures),

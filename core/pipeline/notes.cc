@@ -38,7 +38,9 @@ void AddCavities(const SkeletonizeResult& result, Notes& notes) {
   if (cavities == 0 || !MakesCurves(result.options.thinning.kind)) return;
   notes.push_back(
       Counted(cavities, "cavity leaves a closed surface", "cavities leave closed surfaces") +
-      " among the curves, and lengths of branches that meet there include paths over it; "
+      " among the curves, and lengths of branches that meet there include paths over " +
+      (cavities == 1 ? "it" : "them") +
+      "; "
       "--fill-cavities fills cavities before thinning");
 }
 

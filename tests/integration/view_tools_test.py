@@ -206,6 +206,10 @@ class TableTest(PageTestCase):
         page.click("#row-2 .only")
         self.assertEqual(page.text("#count-components"), "4")
 
+    def skeletonize_labels(self, *words):
+        done = harness.bccskel("labels", self.path("labels.npy"), "-o", self.path("s.html"), *words)
+        self.assertEqual(done.returncode, 0, done.stderr)  # it warns of a cavity, or of nothing left
+
     def test_labels_are_colored_listed_and_hidden_with_their_glass(self):
         huge = 2**64 - 1
         image = numpy.zeros((14, 30, 80), "<u8")
@@ -215,8 +219,7 @@ class TableTest(PageTestCase):
         image[1:13, 18:29, 50:75] = 5
         image[4:10, 21:26, 53:72] = 0  # a closed surface
         numpy.save(self.path("labels.npy"), image)
-        self.succeed("labels", self.path("labels.npy"), "-o", self.path("s.html"), "-o",
-                     self.path("s.csv"))
+        self.skeletonize_labels("-o", self.path("s.csv"))
         page = self.open("#off=nodes")
         self.assertIn("4 labels", page.text("#points"))
         self.assertEqual(page.run("document.getElementById('color').value"), "label")
@@ -256,8 +259,7 @@ class TableTest(PageTestCase):
         image[4, 4, 28] = 5
         image[2:6, 2:6, 36:58] = 9
         numpy.save(self.path("labels.npy"), image)
-        self.succeed("labels", self.path("labels.npy"), "-o", self.path("s.html"),
-                     "--min-component", "30")
+        self.skeletonize_labels("--min-component", "30")
         page = self.open("#")
         self.assertIn("3 labels", page.text("#points"))
         self.assertTrue(page.run("document.querySelector('#keys .of-object').hidden"))

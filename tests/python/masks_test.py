@@ -156,6 +156,25 @@ class LabelsTest(harness.TestCase):
         with self.assertWarnsRegex(UserWarning, "does not state its unit"):
             bccskel.save_labels(self.path("mine.precomputed"), skeletons)
 
+    def test_notes_are_those_of_the_first_labels(self):
+        image = numpy.zeros((9, 9, 60), "u1")
+        for label in range(1, 6):
+            image[1:8, 1:8, 10 * label:10 * label + 7] = label
+            image[4, 4, 10 * label + 3] = 0
+        with self.assertWarns(UserWarning) as told:
+            skeletons = bccskel.skeletonize_labels(image)
+        texts = [str(warning.message) for warning in told.warnings]
+        self.assertEqual([text[:32] for text in texts[:3]],
+                         [f"label {n}: 1 cavity leaves a close" for n in (1, 2, 3)])
+        self.assertIn("notes on 2 more labels", texts[3])
+        numpy.save(self.path("hollow.npy"), image)
+        done = harness.bccskel("labels", self.path("hollow.npy"), "--json", "-o",
+                               self.path("hollow.csv"))
+        self.assertIn("warning: " + self.path("hollow.npy") + ": label 3: 1 cavity", done.stderr)
+        self.assertIn("notes on 2 more labels; --json shows all", done.stderr)
+        self.assertEqual([len(label["notes"]) for label in json.loads(done.stdout)["labels"]],
+                         [len(skeletons[n].notes) for n in range(1, 6)])
+
     def test_labels_of_no_voxel_are_named(self):
         image = numpy.ones((4, 4, 4), "u1")
         with self.assertRaisesRegex(ValueError, "^no voxel has the label 5 or 7$"):

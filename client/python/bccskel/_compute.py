@@ -127,9 +127,23 @@ def _labels(server: Any, image: Any, spacing: Any, origin: Any, direction: Any, 
         warnings.warn(f"labels without voxels{fewer}: {names}", stacklevel=3)
     elif not outcomes and (array > 0).any():
         warnings.warn(f"no label has {options.get('min_voxels', 1)} voxels or more", stacklevel=3)
-    return {label: Skeleton(outcome, frame, title=f"label {label}", voxels=True, label=label,
-                            image=image)
-            for label, outcome in outcomes.items()}
+    skeletons = {label: Skeleton(outcome, frame, title=f"label {label}", voxels=True, label=label,
+                                 image=image)
+                 for label, outcome in outcomes.items()}
+    _warn_of_notes(skeletons)
+    return skeletons
+
+
+def _warn_of_notes(skeletons: Mapping[int, Skeleton]) -> None:
+    """Notes on many labels would hide each other: warns of those on the first three."""
+    noted = {label: skeleton.warnings + skeleton.notes for label, skeleton in skeletons.items()
+             if skeleton.warnings or skeleton.notes}
+    for label, notes in list(noted.items())[:3]:
+        for note in notes:
+            warnings.warn(f"label {label}: {note}", stacklevel=4)
+    if len(noted) > 3:
+        warnings.warn(f"there are notes on {len(noted) - 3} more labels: see `notes` of their "
+                      "skeletons", stacklevel=4)
 
 
 def _mesh(server: Any, vertices: Any, faces: Any, threads: int, timeout: Optional[float],
