@@ -82,8 +82,8 @@ absl::Status CheckImages(const SkeletonizeArguments& arguments) {
   if (arguments.skeletonize.preparing.Wanted()) {
     return absl::InvalidArgumentError(
         "--branch-image and --curve-image show the original voxels and cannot be combined with "
-        "--denoise, --fill-cavities, --join-gaps, --cut-loops, --min-component, "
-        "--min-component-volume or --keep-largest");
+        "what changes them: --denoise, --fill-cavities, --join-gaps, --cut-loops, --min-component, "
+        "--min-component-volume, --keep-largest, or a --preset but cad");
   }
   const absl::StatusOr<InputKind> kind = InputKindOf(arguments.input, arguments.image);
   if (!kind.ok() || *kind == InputKind::kImage) return absl::OkStatus();

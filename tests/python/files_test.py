@@ -140,6 +140,14 @@ class FilesTest(harness.TestCase):
         page.save(self.path("page.html"))
         self.assertEqual((self.folder / "page.html").read_text(), page.html)
 
+    def test_where_there_is_no_browser_the_page_is_named(self):
+        with unittest.mock.patch("webbrowser.open", return_value=False), \
+             self.assertWarnsRegex(UserWarning, "found no browser; the page is /.*html") as told:
+            bccskel.skeletonize(numpy.ones((5, 5, 30))).view()
+        path = harness.pathlib.Path(str(told.warning).rpartition(" ")[2])
+        self.addCleanup(path.unlink)
+        self.assertIn("<html", path.read_text())
+
     def test_an_image_keeps_its_place(self):
         nrrd = (b"NRRD0004\ntype: short\ndimension: 3\nsizes: 4 3 2\nencoding: raw\n"
                 b"endian: little\nspace: LPS\nspace directions: (0,2,0) (-3,0,0) (0,0,5)\n"

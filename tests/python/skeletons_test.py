@@ -30,6 +30,13 @@ class SkeletonsTest(harness.TestCase):
         self.assertEqual(sorted(set(s.node_components)), [0, 1])
         self.assertEqual(s.voxels, self.mask.sum())
 
+    def test_arrays_do_not_change_since_files_would_not(self):
+        s = self.skeleton
+        for array in (s.nodes, s.node_radii, s.node_kinds, s.edges, s.lengths, s.paths[0],
+                      s.radii[0], s.sheets, s.pruning_levels):
+            with self.assertRaisesRegex(ValueError, "read-only"):
+                array[...] = array
+
     def test_the_certificate_counts(self):
         same = {"components": 2, "loops": 1, "cavities": 0}
         self.assertEqual(self.skeleton.certificate,

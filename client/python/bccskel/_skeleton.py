@@ -28,7 +28,7 @@ class Skeleton:
     """A graph of curves with radii, as the functions of this package return it.
 
     Coordinates are those of the world, columns in the order of `axes`; lengths and radii are in its
-    unit.
+    unit. Arrays are read-only, copy() makes one to change.
 
     >>> import numpy as np, bccskel
     >>> mask = np.zeros((12, 30, 60), bool)
@@ -70,18 +70,18 @@ class Skeleton:
 
     @functools.cached_property
     def _nodes(self) -> dict:
-        return self._outcome.nodes()
+        return _fixed(self._outcome.nodes())
 
     @functools.cached_property
     def _edges(self) -> dict:
-        return self._outcome.edges()
+        return _fixed(self._outcome.edges())
 
     @functools.cached_property
     def _sheets(self) -> dict:
-        return self._outcome.sheets()
+        return _fixed(self._outcome.sheets())
 
     def _columns(self, points: np.ndarray) -> np.ndarray:
-        return points[:, self._frame.from_xyz]
+        return _fixed(points[:, self._frame.from_xyz])
 
     @property
     def axes(self) -> str:
@@ -95,14 +95,15 @@ class Skeleton:
 
     @property
     def node_radii(self) -> np.ndarray:
-        """The radius of the largest ball around each node inside the object, shape (nodes,)."""
+        """The radius of the largest ball around each node inside the object, shape (nodes,). Of
+        masks it is corrected for voxels, so that it is right on average for round limbs."""
         return self._nodes["radii"]
 
     @functools.cached_property
     def node_kinds(self) -> np.ndarray:
         """'end', 'junction', 'loop' (represents a closed curve), 'isolated' or 'closed_surface',
         shape (nodes,)."""
-        return np.array(self._nodes["kinds"], dtype="U14")
+        return _fixed(np.array(self._nodes["kinds"], dtype="U14"))
 
     @property
     def node_components(self) -> np.ndarray:
@@ -346,11 +347,21 @@ class Skeleton:
             return Page(path.read_text(encoding="utf-8"))
 
     def view(self) -> Page:
-        """Shows the page: in a notebook as the value of a cell, elsewhere in a browser."""
+        """Shows the page: in a notebook as the value of a cell, elsewhere in a browser. Warns where
+        its file is if there is no browser."""
         page = self.page()
         if not _in_notebook():
             page.open()
         return page
+
+
+def _fixed(value: Any) -> Any:
+    """Arrays that files do not read must not change: tables and files would then differ."""
+    for part in value.values() if isinstance(value, dict) else ():
+        _fixed(part)
+    if isinstance(value, np.ndarray):
+        value.flags.writeable = False
+    return value
 
 
 class Page:
@@ -375,7 +386,8 @@ class Page:
         with tempfile.NamedTemporaryFile("w", prefix="bccskel-", suffix=".html", delete=False,
                                          encoding="utf-8") as file:
             file.write(self.html)
-        webbrowser.open(pathlib.Path(file.name).as_uri())
+        if not webbrowser.open(pathlib.Path(file.name).as_uri()):
+            warnings.warn(f"found no browser; the page is {file.name}", stacklevel=3)
         return file.name
 
 
