@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <iterator>
@@ -347,7 +348,14 @@ std::string_view LocalCommand(const SkeletonizeArguments& arguments) {
 
 ExitCode FailComputing(const ComputeArguments& arguments, const absl::Status& error,
                        std::string_view local) {
-  if (arguments.place != Place::kServer) return Fail(WithPath(error, arguments.input));
+  if (arguments.place != Place::kServer) {
+    const absl::Status here = absl::IsDeadlineExceeded(error)
+                                  ? absl::DeadlineExceededError(absl::StrFormat(
+                                        "not done within the %g s of --timeout",
+                                        std::chrono::duration<double>(arguments.timeout).count()))
+                                  : error;
+    return Fail(WithPath(here, arguments.input));
+  }
   return FailOnServer(arguments.server, error, local);
 }
 

@@ -65,7 +65,7 @@ class ExitCodesTest(harness.TestCase):
 
     def test_5_when_the_deadline_passes(self):
         volume = self.long_job()
-        self.fail_with(5, "deadline", *self.skeletonize(volume, "--local", "--timeout", 0.001))
+        self.fail_with(5, "not done within the 0.001 s of --timeout", *self.skeletonize(volume, "--local", "--timeout", 0.001))
         with harness.Server(self.folder) as server:
             self.fail_with(5, "the deadline passed before", *self.skeletonize(
                 volume, "--server", server.address, "--timeout", 0.01))

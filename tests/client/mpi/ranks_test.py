@@ -234,7 +234,7 @@ class Refusals(TestCase):
                             self.folder / "no/such/out.json")
 
     def test_too_little_time(self):
-        self.expect_refused(5, "deadline", "skeletonize", self.generate("ball", 400_000), "-o",
+        self.expect_refused(5, "--timeout", "skeletonize", self.generate("ball", 400_000), "-o",
                             self.folder / "out.json", "--timeout", "0.001")
 
 
