@@ -46,10 +46,17 @@ size_t BackFrom(std::span<const LatticePoint> path, size_t n, const ThinSet& set
 
 double RadiusOf(double area) { return std::sqrt(area / std::numbers::pi); }
 
-// The deepest curve that leads away from the junction, except for the one that begins with `own`.
-std::vector<LatticePoint> DeepestArm(LatticePoint junction, LatticePoint own, const ThinSet& set,
-                                     LatticePoint& end) {
-  std::vector<LatticePoint> deepest;
+}  // namespace
+
+const TrunkArms::Arm& TrunkArms::Deepest(LatticePoint junction, LatticePoint own,
+                                         const ThinSet& set) {
+  const auto [known, is_new] = arms_.try_emplace({junction, own});
+  if (is_new) known->second = Find(junction, own, set);
+  return known->second;
+}
+
+TrunkArms::Arm TrunkArms::Find(LatticePoint junction, LatticePoint own, const ThinSet& set) {
+  Arm deepest = {{}, junction};
   float most = 0;
   for (LatticePoint p : ClusterOf(set, junction)) {
     ForEachNeighbor(p, set.NeighborsOf(p), [&](LatticePoint q) {
@@ -59,21 +66,22 @@ std::vector<LatticePoint> DeepestArm(LatticePoint junction, LatticePoint own, co
       const float radius = set.RadiusOf(arm[std::min(arm.size() - 1, kArmPoints)]);
       if (radius <= most) return;
       most = radius;
-      deepest = std::move(arm);
-      end = last;
+      deepest = {std::move(arm), last};
     });
   }
   return deepest;
 }
 
+namespace {
+
 // The points of the trunk from the junction back, through others.
-std::vector<LatticePoint> TrunkTo(LatticePoint junction, LatticePoint own, const ThinSet& set) {
+std::vector<LatticePoint> TrunkTo(LatticePoint junction, LatticePoint own, const ThinSet& set,
+                                  TrunkArms& arms) {
   std::vector<LatticePoint> trunk;
   const double length = kTrunkRadii * set.RadiusOf(junction) + kBackMargin;
   LatticePoint at = junction;
   for (int n = 0; n < kMostJunctions; ++n) {
-    LatticePoint end = at;
-    const std::vector<LatticePoint> arm = DeepestArm(at, own, set, end);
+    const auto& [arm, end] = arms.Deepest(at, own, set);
     trunk.insert(trunk.end(), arm.begin(), arm.end());
     if (arm.size() < 2 || !set.Branches(end) || set.Between(end, junction) > length) break;
     own = arm.back();
@@ -84,7 +92,8 @@ std::vector<LatticePoint> TrunkTo(LatticePoint junction, LatticePoint own, const
 
 // The curve from p on, away from its neighbor `previous`, and through junctions along the trunk, as
 // far as a limb is measured.
-std::vector<LatticePoint> CurveFrom(LatticePoint previous, LatticePoint p, const ThinSet& set) {
+std::vector<LatticePoint> CurveFrom(LatticePoint previous, LatticePoint p, const ThinSet& set,
+                                    TrunkArms& arms) {
   std::vector<LatticePoint> curve;
   LatticePoint last = previous, at = p;
   const double most = kMostCurve * set.RadiusOf(p) + kLeastCurve;
@@ -96,7 +105,7 @@ std::vector<LatticePoint> CurveFrom(LatticePoint previous, LatticePoint p, const
     at = next;
   }
   if (!set.Branches(at)) return curve;
-  const std::vector<LatticePoint> trunk = TrunkTo(at, last, set);
+  const std::vector<LatticePoint> trunk = TrunkTo(at, last, set, arms);
   curve.insert(curve.end(), trunk.begin(), trunk.end());
   return curve;
 }
@@ -205,7 +214,8 @@ std::optional<BorderTips::Limb> BorderTips::LimbBefore(const Face& face,
 std::optional<BorderTips::Limb> BorderTips::TrunkBefore(const Face& face,
                                                         std::span<const LatticePoint> path,
                                                         LatticePoint junction, const ThinSet& set) {
-  std::vector<LatticePoint> whole = TrunkTo(junction, path[0], set);
+  TrunkArms arms;  // the set changes from one tip to the next
+  std::vector<LatticePoint> whole = TrunkTo(junction, path[0], set, arms);
   if (whole.empty()) return std::nullopt;
   std::ranges::reverse(whole);
   std::optional<Limb> limb = LimbBefore(face, whole, set);
@@ -310,10 +320,11 @@ void BorderTips::AddBranches(ExactRadius& radius, ThinSet& set, PointsByAxis& ad
   exec::Portions portions(crossings.size(), kAtOnce);
   context.Offer(context.WorkersFor(crossings.size(), kWork), [&](int) {
     BorderTips own = *this;
+    TrunkArms arms;
     for (exec::Share mine = portions.Take(); mine.begin < mine.end; mine = portions.Take()) {
       if (context.ShouldStop()) return;
       for (size_t n = mine.begin; n < mine.end; ++n) {
-        branches[n] = own.BranchFrom(crossings[n], ends, set);
+        branches[n] = own.BranchFrom(crossings[n], ends, set, arms);
       }
     }
   });
@@ -330,8 +341,9 @@ void BorderTips::AddBranches(ExactRadius& radius, ThinSet& set, PointsByAxis& ad
 }
 
 // A bent limb, such as a ring, may graze the face.
-bool BorderTips::GoesOnAsThick(const Crossing& crossing, const ThinSet& set) const {
-  const std::vector<LatticePoint> beyond = CurveFrom(crossing.last, crossing.touching, set);
+bool BorderTips::GoesOnAsThick(const Crossing& crossing, const ThinSet& set,
+                               TrunkArms& arms) const {
+  const std::vector<LatticePoint> beyond = CurveFrom(crossing.last, crossing.touching, set, arms);
   const auto leaves =
       std::ranges::find_if(beyond, [&](LatticePoint p) { return !Touches(p, crossing.face, set); });
   const float radius = set.RadiusOf(crossing.last);
@@ -343,10 +355,10 @@ bool BorderTips::GoesOnAsThick(const Crossing& crossing, const ThinSet& set) con
 
 std::optional<BorderTips::NewBranch> BorderTips::BranchFrom(const Crossing& crossing,
                                                             std::span<const LatticePoint> ends,
-                                                            const ThinSet& set) {
+                                                            const ThinSet& set, TrunkArms& arms) {
   const auto& [face, p, touching] = crossing;
-  std::vector<LatticePoint> trunk = CurveFrom(touching, p, set);
-  if (trunk.size() < 2 || GoesOnAsThick(crossing, set)) return std::nullopt;
+  std::vector<LatticePoint> trunk = CurveFrom(touching, p, set, arms);
+  if (trunk.size() < 2 || GoesOnAsThick(crossing, set, arms)) return std::nullopt;
   std::ranges::reverse(trunk);
   std::optional<Limb> limb = LimbBefore(face, trunk, set);
   if (!limb.has_value()) return std::nullopt;

@@ -2,8 +2,10 @@
 #define BCCSKEL_CORE_PRUNING_BORDER_TIPS_H_
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/distance/exact_radius.h"
@@ -15,6 +17,25 @@
 #include "core/volume/volume.h"
 
 namespace bccskel {
+
+// The trunks of a set that does not change: which curve leads on from a junction. Remembers them,
+// since the crossings of a spongy object share theirs.
+class TrunkArms {
+ public:
+  struct Arm {
+    std::vector<LatticePoint> points;
+    LatticePoint end;  // the last one's neighbor
+  };
+
+  // The deepest curve that leads away from the junction, except for the one that begins with `own`;
+  // without points if there is none.
+  const Arm& Deepest(LatticePoint junction, LatticePoint own, const ThinSet& set);
+
+ private:
+  static Arm Find(LatticePoint junction, LatticePoint own, const ThinSet& set);
+
+  std::map<std::pair<LatticePoint, LatticePoint>, Arm> arms_;
+};
 
 // Finds how the curves of limbs that the border of an image cuts off lead straight to the middles
 // of their cuts. Thinning takes the border for the surface, so it ends such a curve where the ball
@@ -106,11 +127,11 @@ class BorderTips {
   // In the order of faces and points.
   std::vector<Crossing> Crossings(const ThinSet& set) const;
   // Whether the curve behind the crossing leaves the face again in a limb about as thick.
-  bool GoesOnAsThick(const Crossing& crossing, const ThinSet& set) const;
+  bool GoesOnAsThick(const Crossing& crossing, const ThinSet& set, TrunkArms& arms) const;
   // The branch of the limb that leads to the crossing. None if one of the ends lies in its cut, or
   // if the curve comes near its middle.
   std::optional<NewBranch> BranchFrom(const Crossing& crossing, std::span<const LatticePoint> ends,
-                                      const ThinSet& set);
+                                      const ThinSet& set, TrunkArms& arms);
   static Way StraightTo(const Coordinates& middle, const Face& face, const Limb& limb);
 
   const AxisScale scale_;
