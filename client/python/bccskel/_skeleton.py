@@ -131,7 +131,8 @@ class Skeleton:
 
     @property
     def lengths(self) -> np.ndarray:
-        """Lengths of the curves, shape (edges,)."""
+        """Lengths of the curves, shape (edges,). Blunt limbs are longer by about the radius at each
+        free end."""
         return self._edges["figures"]["length"]
 
     @property
