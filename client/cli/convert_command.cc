@@ -13,11 +13,8 @@
 #include "client/cli/thinning_options.h"
 #include "client/export/atomic_file.h"
 #include "client/export/method_facts.h"
-#include "client/export/picture/svg.h"
 #include "client/export/skeleton_file.h"
-#include "client/view/display_surface.h"
-#include "client/view/page.h"
-#include "client/view/render/picture.h"
+#include "client/view/render/subject_picture.h"
 #include "client/view/result_graph.h"
 #include "core/exec/status_macros.h"
 
@@ -31,25 +28,7 @@ std::string SummaryOf(const ConvertArguments& arguments, const std::vector<Writt
   return "{\"result\":" + JsonString(arguments.result) + ",\"outputs\":" + FilesJson(files) + "}\n";
 }
 
-// A picture of the curves alone, or the document itself.
-absl::StatusOr<std::string> Compose(exporting::SkeletonFormat format, const std::string& title,
-                                    const view::ResultDocument& result,
-                                    const exec::Context& context) {
-  using exporting::SkeletonFormat;
-  const view::DisplaySurface no_object;
-  if (format == SkeletonFormat::kJson) return *result.text;
-  if (format == SkeletonFormat::kHtml)
-    return view::PageOf({title, result, view::Peeling()}, context);
-  if (format == SkeletonFormat::kSvg) {
-    return exporting::SvgText(
-        {.title = title, .result = result, .surface = no_object, .context = context});
-  }
-  view::PictureOptions options;
-  options.title = title;
-  return view::RenderPng(result, no_object, options, context);
-}
-
-// Whether Compose() makes the file.
+// Whether ComposeDocument() makes the file.
 bool HoldsDocument(const std::string& path) {
   const absl::StatusOr<exporting::SkeletonFormat> format = exporting::SkeletonFormatOf(path);
   return format.ok() &&
@@ -60,7 +39,8 @@ absl::Status WriteDocument(const std::string& path, const std::string& title,
                            const view::ResultDocument& result, const exec::Context& context) {
   BCCSKEL_ASSIGN_OR_RETURN(const exporting::SkeletonFormat format,
                            exporting::SkeletonFormatOf(path));
-  BCCSKEL_ASSIGN_OR_RETURN(const std::string text, Compose(format, title, result, context));
+  BCCSKEL_ASSIGN_OR_RETURN(const std::string text,
+                           view::ComposeDocument(format, title, result, context));
   return exporting::WriteFileAtomically(path, text, context.stop);
 }
 

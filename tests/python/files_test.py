@@ -78,9 +78,11 @@ class FilesTest(harness.TestCase):
             self.assertIn(f">{title}</text>", picture)
         skeletons[3].save(self.path("read.json"))
         read = {3: bccskel.read(self.path("read.json"))}
-        for name in ("read.html", "read-{label}.png", "read.json"):
-            with self.assertRaisesRegex(ValueError, "a result that was read"):
+        for name in ("read.html", "read.json"):
+            with self.assertRaisesRegex(ValueError, "results that were read"):
                 bccskel.save_labels(self.path(name), read)
+        bccskel.save_labels(self.path("read-{label}.png"), read)  # the curves alone
+        self.assertTrue((self.folder / "read-3.png").read_bytes().startswith(b"\x89PNG"))
         with self.assertRaises(OSError):
             bccskel.save_labels(self.path("missing/{label}.swc"), skeletons)
 

@@ -116,13 +116,21 @@ class ReadTest(harness.TestCase):
                     self.assertEqual((self.folder / ("mine" + ending)).read_bytes(),
                                      (self.folder / ("theirs" + ending)).read_bytes(),
                                      (words, ending))
-        for ending in (".svg", ".html", ".exr"):
-            with self.assertRaisesRegex(ValueError, r"^pictures, pages .*with skeletonize\(\)$"):
-                read.save(self.path("mine" + ending))
-        with self.assertRaisesRegex(ValueError, "^pictures, pages"):
-            read.page()
-        with self.assertRaisesRegex(ValueError, "not written as JSON again"):
-            read.save(self.path("mine.json"))
+        for skeleton in (read, pickle.loads(pickle.dumps(read))):
+            skeleton.save(self.path("mine.json"))
+            self.assertEqual((self.folder / "mine.json").read_bytes(),
+                             (self.folder / "a.json").read_bytes())
+            for ending, begin in ((".svg", b"<?xml"), (".png", b"\x89PNG"), (".html", b"<!")):
+                self.succeed("convert", self.path("a.json"), "-o", self.path("a" + ending))
+                skeleton.save(self.path("mine" + ending))
+                mine = (self.folder / ("mine" + ending)).read_bytes()
+                self.assertTrue(mine.startswith(begin))
+                if ending == ".svg":  # the titles differ
+                    theirs = (self.folder / "a.svg").read_bytes()
+                    self.assertEqual(mine.replace(b">a<", b">a.json<"), theirs)
+            self.assertIn("<!", skeleton.page().html)
+        with self.assertRaisesRegex(ValueError, r"no lattice points; .* with skeletonize\(\)$"):
+            read.save(self.path("mine.exr"))
         with self.assertRaisesRegex(ValueError, "read from a file does not contain the voxels"):
             read.curve_image()
 

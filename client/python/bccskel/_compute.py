@@ -271,7 +271,7 @@ def read(path: _Path, **options: Unpack[FileOptions]) -> Union[Image, Mesh, Latt
     glTF, VTK polygon data, GIFTI, FreeSurfer) from a file, as the command line reads it; also
     compressed by gzip. A folder is read as OME-Zarr (to 0.5), a Zarr array, a Neuroglancer precomputed
     volume or one PNG or TIFF file per slice. A .json file is a result of the command line or of
-    `Skeleton.save()`: a `Skeleton` that cannot be shown with its object, coordinates x, y, z. A
+    `Skeleton.save()`: a `Skeleton` that is shown without its object, coordinates x, y, z. A
     .exr or .bccb file is a `Lattice`.
 
     options, of images: channel and time (of TIFF and OME-Zarr), level (of folders),

@@ -207,8 +207,16 @@ absl::StatusOr<LabelOutcomes> SkeletonizeOnServer(const client::LabelVolume& ima
 }
 
 absl::StatusOr<Outcome> ReadResult(const std::string& path, const std::stop_token& stop) {
-  BCCSKEL_ASSIGN_OR_RETURN(view::ResultGraph read, view::ReadResultGraph(path, stop));
+  BCCSKEL_ASSIGN_OR_RETURN(const view::ResultDocument document,
+                           view::ReadResultDocument(path, stop));
+  absl::StatusOr<view::ResultGraph> found = view::ResultGraphOf(document, stop);
+  if (!found.ok()) {
+    return absl::Status(found.status().code(),
+                        absl::StrCat(path, ": ", std::string(found.status().message())));
+  }
+  view::ResultGraph& read = *found;
   Outcome outcome;
+  outcome.document = document.text;
   outcome.result.graph = std::move(read.graph);
   outcome.result.certificate = read.certificate;
   outcome.result.preparing = read.steps;

@@ -36,8 +36,9 @@ struct Outcome {
   // The voxels of a label that was computed here; the object of a mask implies its voxels.
   std::shared_ptr<const LabeledObject> label;
 
-  // For a result read from JSON: how it was made.
+  // For a result read from JSON: how it was made, and the document.
   std::optional<view::ResultFacts> read;
+  std::shared_ptr<const std::string> document;
 
   // JSON results do not state the number of voxels.
   std::optional<uint64_t> KnownVoxels() const {

@@ -153,6 +153,7 @@ py::dict StateOf(const Outcome& outcome) {
   state["mask"] = StateOfMask(outcome.mask);
   state["label"] = StateOfLabel(outcome.label);
   state["read"] = StateOfRead(outcome.read);
+  if (outcome.document != nullptr) state["document"] = py::bytes(*outcome.document);
   return state;
 }
 
@@ -168,6 +169,9 @@ std::shared_ptr<Outcome> OutcomeOfState(const py::dict& state) {
   outcome->mask = MaskOfState(state["mask"].cast<MaskState>());
   outcome->label = LabelOfState(state["label"]);
   outcome->read = ReadOfState(state["read"], outcome->result);
+  if (outcome->read.has_value()) {
+    outcome->document = std::make_shared<const std::string>(state["document"].cast<std::string>());
+  }
   return outcome;
 }
 

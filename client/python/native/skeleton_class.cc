@@ -18,6 +18,7 @@
 #include "client/cli/console.h"
 #include "client/cli/file_writers.h"
 #include "client/cli/option_values.h"
+#include "client/export/atomic_file.h"
 #include "client/export/label_paths.h"
 #include "client/export/labeled_graph.h"
 #include "client/export/method_facts.h"
@@ -211,19 +212,22 @@ struct Saying {
 
 using exporting::SkeletonFormat;
 
-absl::Status CheckHeldByRead(SkeletonFormat format) {
-  if (format == SkeletonFormat::kJson) {
-    return absl::InvalidArgumentError("a result that was read is not written as JSON again");
-  }
-  if (!exporting::ShowsObject(format) && format != SkeletonFormat::kVolume) return absl::OkStatus();
-  return absl::InvalidArgumentError(
-      "pictures, pages and lattice points need the object, which a result that was read does not "
-      "contain; compute it again with skeletonize()");
-}
-
 // As `bccskel convert`.
 absl::StatusOr<std::string> SaveRead(const Outcome& outcome, const std::string& path,
                                      const Saying& saying, const exec::Context& context) {
+  BCCSKEL_ASSIGN_OR_RETURN(const SkeletonFormat format, exporting::SkeletonFormatOf(path));
+  if (format == SkeletonFormat::kVolume) {
+    return absl::InvalidArgumentError(
+        "a result that was read has no lattice points; compute it again with skeletonize()");
+  }
+  if (format == SkeletonFormat::kJson || exporting::ShowsObject(format)) {
+    BCCSKEL_ASSIGN_OR_RETURN(const view::ResultDocument document,
+                             view::ParseResultDocument(*outcome.document, context.stop));
+    BCCSKEL_ASSIGN_OR_RETURN(const std::string text,
+                             view::ComposeDocument(format, saying.title, document, context));
+    BCCSKEL_RETURN_IF_ERROR(exporting::WriteFileAtomically(path, text, context.stop));
+    return std::string();
+  }
   return exporting::WriteGraphFile(
       path,
       {.graph = outcome.result.graph,
@@ -243,10 +247,7 @@ absl::StatusOr<std::string> SaveIn(const Outcome& outcome, const std::string& pa
     return absl::UnimplementedError("servers do not send the lattice points of labels");
   }
   cli::LocalTeam team(0, stop);
-  if (outcome.read.has_value()) {
-    BCCSKEL_RETURN_IF_ERROR(CheckHeldByRead(format));
-    return SaveRead(outcome, path, saying, team.context());
-  }
+  if (outcome.read.has_value()) return SaveRead(outcome, path, saying, team.context());
   auto object = std::make_shared<const Volume>();
   if (exporting::ShowsObject(format)) {
     BCCSKEL_ASSIGN_OR_RETURN(object, outcome.Object());
@@ -329,7 +330,11 @@ absl::StatusOr<std::string> WriteLabels(const std::string& path, const LabelList
   for (const auto& [label, outcome] : labels) {
     if (outcome->read.has_value()) {
       BCCSKEL_ASSIGN_OR_RETURN(const SkeletonFormat format, exporting::SkeletonFormatOf(path));
-      BCCSKEL_RETURN_IF_ERROR(CheckHeldByRead(format));
+      if (format == SkeletonFormat::kJson || exporting::ShowsObject(format)) {
+        return absl::InvalidArgumentError(
+            "JSON, pictures and pages of labels need their objects, which results that were read "
+            "do not contain; compute them again with skeletonize_labels()");
+      }
     }
     const Outcome& first = *labels.front().second;
     if (outcome->result.graph.placement != first.result.graph.placement) {
