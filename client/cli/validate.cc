@@ -83,7 +83,7 @@ absl::Status CheckImages(const SkeletonizeArguments& arguments) {
     return absl::InvalidArgumentError(
         "--branch-image and --curve-image show the original voxels and cannot be combined with "
         "what changes them: --denoise, --fill-cavities, --join-gaps, --cut-loops, --min-component, "
-        "--min-component-volume, --keep-largest, or a --preset but cad");
+        "--min-component-volume, --keep-largest, or a --preset other than cad");
   }
   const absl::StatusOr<InputKind> kind = InputKindOf(arguments.input, arguments.image);
   if (!kind.ok() || *kind == InputKind::kImage) return absl::OkStatus();

@@ -39,9 +39,7 @@ void AddCavities(const SkeletonizeResult& result, Notes& notes) {
   notes.push_back(
       Counted(cavities, "cavity leaves a closed surface", "cavities leave closed surfaces") +
       " among the curves, and lengths of branches that meet there include paths over " +
-      (cavities == 1 ? "it" : "them") +
-      "; "
-      "--fill-cavities fills cavities before thinning");
+      (cavities == 1 ? "it; " : "them; ") + "--fill-cavities fills cavities before thinning");
 }
 
 // Noise that opens so many tunnels also makes bumps. They remain where tunnels are closed, and have

@@ -24,8 +24,7 @@ absl::Status CheckVoxels(const Outcome& outcome) {
     return absl::InvalidArgumentError(
         "images show the original voxels and cannot be combined with what changes them: denoise, "
         "fill_cavities, join_gaps, cut_loops, min_component, min_component_volume, keep_largest, "
-        "or "
-        "a preset but cad");
+        "or a preset other than cad");
   }
   if (outcome.object != nullptr || outcome.label != nullptr) return absl::OkStatus();
   return absl::UnimplementedError("for a label that a server has computed, use image == label");
