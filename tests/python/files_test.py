@@ -131,6 +131,8 @@ class FilesTest(harness.TestCase):
                          bccskel.skeletonize(mask, sampling="trilinear")):
             with self.assertRaises(ValueError):
                 skeleton.curve_image()
+        with self.assertRaisesRegex(ValueError, "cut_loops, .*or a preset other than cad$"):
+            bccskel.skeletonize(mask, cut_loops=1e-9).curve_image()
 
     def test_a_page_shows_in_a_notebook_or_a_browser(self):
         with unittest.mock.patch("webbrowser.open") as browser:

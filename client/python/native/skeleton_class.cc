@@ -246,7 +246,8 @@ absl::StatusOr<std::string> SaveIn(const Outcome& outcome, const std::string& pa
       outcome.result.skeleton_points > 0) {
     return absl::UnimplementedError("servers do not send the lattice points of labels");
   }
-  cli::LocalTeam team(0, stop);
+  const bool many = outcome.result.graph.points.size() > 50'000;  // else threads start too slowly
+  cli::LocalTeam team(many || exporting::ShowsObject(format) ? 0 : 1, stop);
   if (outcome.read.has_value()) return SaveRead(outcome, path, saying, team.context());
   auto object = std::make_shared<const Volume>();
   if (exporting::ShowsObject(format)) {
