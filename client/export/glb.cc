@@ -91,7 +91,8 @@ class Scene {
     AppendItems(vertices_, tube.vertices);
     if (joined_) {
       AppendItems(corners_, tube.Corners(static_cast<uint32_t>(first)));
-      box_ ? box_->Include(tube) : void(box_ = Box::Of(tube));
+      if (!box_) box_ = Box::Of(tube);
+      box_->Include(tube);
       return;
     }
     AddMesh(first, tube.vertices.size(), Box::Of(tube), [&] { return CornersAccessor(tube); });
