@@ -104,17 +104,13 @@ struct EdgeContext {
   JsonParts parts;
 };
 
-void AddEdge(Text& text, const SkeletonGraph& graph, size_t n, const EdgeContext& context,
-             RadiusTexts& radii) {
-  const SkeletonEdge& edge = graph.edges[n];
+void AddPoints(Text& text, const SkeletonGraph& graph, const SkeletonEdge& edge,
+               const std::vector<WorldPoint>& curve, const EdgeContext& context,
+               RadiusTexts& radii) {
   const auto points = graph.PointsOf(edge);
-  text.Add("{\"source\":", edge.source, ",\"target\":", edge.target, ",\"points\":");
-  if (context.parts == JsonParts::kAll) {
-    AddList(text, ",", points,
-            [&](const SkeletonPoint& p) { AddPosition(text, graph.PositionOf(p)); });
-  } else {
-    text.Add("null");
-  }
+  text.Add(",\"points\":");
+  AddList(text, ",", points,
+          [&](const SkeletonPoint& p) { AddPosition(text, graph.PositionOf(p)); });
   text.Add(",\"radii\":");
   AddList(text, ",", points, [&](const SkeletonPoint& p) { text.Add(radii.Of(p)); });
   if (context.has_births) {
@@ -128,8 +124,15 @@ void AddEdge(Text& text, const SkeletonGraph& graph, size_t n, const EdgeContext
     });
   }
   text.Add(",\"curve\":");
-  const std::vector<WorldPoint> curve = SmoothCurve(graph, edge);
   AddList(text, ",", curve, [&](const WorldPoint& p) { AddPosition(text, p); });
+}
+
+void AddEdge(Text& text, const SkeletonGraph& graph, size_t n, const EdgeContext& context,
+             RadiusTexts& radii) {
+  const SkeletonEdge& edge = graph.edges[n];
+  const std::vector<WorldPoint> curve = SmoothCurve(graph, edge);
+  text.Add("{\"source\":", edge.source, ",\"target\":", edge.target);
+  if (context.parts == JsonParts::kAll) AddPoints(text, graph, edge, curve, context, radii);
   const EdgeFigures figures = FiguresOf(graph, edge, curve);
   text.Add(",\"length\":", figures.length, ",\"mean_radius\":", figures.mean_radius,
            ",\"min_radius\":", figures.min_radius, ",\"max_radius\":", figures.max_radius);
@@ -174,7 +177,7 @@ double Milliseconds(StageTimings::Duration duration) {
 }
 
 void AddTimings(Text& text, const StageTimings& timings) {
-  text.Add('{');
+  text.Add(",\n\"timings\":{");
   for (const Stage& stage : kStages) {
     text.Add('"', stage.name, "_ms\":", Milliseconds(timings.*stage.time), ',');
   }
@@ -208,12 +211,10 @@ std::string JsonText(const SkeletonizeResult& result, const std::optional<TreeOr
     };
   });
   text.Add(']');
-  text.Add(",\n\"sheets\":");
   if (parts == JsonParts::kAll) {
     RadiusTexts radii(graph);
+    text.Add(",\n\"sheets\":");
     AddSheets(text, graph, radii);
-  } else {
-    text.Add("null");
   }
   text.Add(",\n\"components\":");
   AddList(text, ",\n", components.figures,
@@ -231,12 +232,8 @@ std::string JsonText(const SkeletonizeResult& result, const std::optional<TreeOr
   text.Add(",\n\"placement\":{", PlacementJson(graph.placement),
            "},\n\"world\":", JsonString(OrUnknown(world.axes)),
            ",\n\"unit\":", JsonString(OrUnknown(world.unit)),
-           ",\n\"object_points\":", result.object_points, ",\n\"timings\":");
-  if (parts == JsonParts::kAll) {
-    AddTimings(text, result.timings);
-  } else {
-    text.Add("null");
-  }
+           ",\n\"object_points\":", result.object_points);
+  if (parts == JsonParts::kAll) AddTimings(text, result.timings);
   text.Add(",\n\"sha256\":", JsonString(result.sha256), "\n}\n");
   return std::move(text).Take();
 }

@@ -16,7 +16,7 @@ namespace bccskel::exporting {
 // With an order of trees, nodes and edges state their places in it.
 // Nodes and edges are written on all threads of the context. After a stop request it returns early,
 // with a part of the document.
-// kForPage: null instead of what a page holds in another form, ResultDocument::not_on_pages.
+// kForPage: without what a page lacks or holds in another form, ResultDocument::not_on_pages.
 enum class JsonParts { kAll, kForPage };
 std::string JsonText(const SkeletonizeResult& result,
                      const std::optional<TreeOrder>& order = std::nullopt, const World& world = {},

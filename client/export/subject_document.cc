@@ -30,18 +30,6 @@ absl::StatusOr<ResultDocument> FactsOf(const SkeletonizeResult& result, const Wo
   return document;
 }
 
-// Points with their radii and, if any point of the graph has one, births.
-template <typename Points, typename To>
-void AddPoints(const SkeletonGraph& graph, const Points& points, bool births, To& to) {
-  to.points.reserve(points.size());
-  to.radii.reserve(points.size());
-  for (const SkeletonPoint& p : points) {
-    to.points.push_back(graph.PositionOf(p));
-    to.radii.push_back(graph.RadiusOf(p));
-    if (births) to.births.push_back(p.birth);
-  }
-}
-
 ResultDocument::Node NodeOf(const SkeletonGraph& graph, const SkeletonNode& node) {
   return {.kind = std::string(NodeKindName(node.kind)),
           .position = graph.PositionOf(node.at),
@@ -51,20 +39,33 @@ ResultDocument::Node NodeOf(const SkeletonGraph& graph, const SkeletonNode& node
           .cavities = node.cavities};
 }
 
-ResultDocument::Edge EdgeOf(const SkeletonGraph& graph, const SkeletonEdge& from, bool births,
-                            bool shifts) {
-  ResultDocument::Edge edge = {.source = from.source,
-                               .target = from.target,
-                               .points = {},
-                               .radii = {},
-                               .births = {},
-                               .shifts = {},
-                               .length = FiguresOf(graph, from).length,
-                               .pruning_level = from.pruning_level};
-  AddPoints(graph, graph.PointsOf(from), births, edge);
-  if (!shifts) return edge;
-  for (const SkeletonPoint& p : graph.PointsOf(from)) edge.shifts.push_back(p.shift);
-  return edge;
+// Needs: the lists of points have their lengths.
+void SetEdge(const SkeletonGraph& graph, size_t n, ResultDocument& document) {
+  const SkeletonEdge& from = graph.edges[n];
+  const std::vector<WorldPoint> curve = SmoothCurve(graph, from);
+  document.edges[n] = {.source = from.source,
+                       .target = from.target,
+                       .first_point = from.first_point,
+                       .point_count = from.point_count,
+                       .length = FiguresOf(graph, from, curve).length,
+                       .pruning_level = from.pruning_level};
+  for (size_t k = 0; k < from.point_count; ++k) {
+    const size_t at = from.first_point + k;
+    const SkeletonPoint& p = graph.points[at];
+    document.points[at] = graph.PositionOf(p);
+    document.radii[at] = graph.RadiusOf(p);
+    document.curves[at] = curve[k];
+    if (!document.births.empty()) document.births[at] = p.birth;
+    if (!document.shifts.empty()) document.shifts[at] = p.shift;
+  }
+}
+
+void AddSheets(const SkeletonGraph& graph, bool births, ResultDocument::Sheets& sheets) {
+  for (const SkeletonPoint& p : graph.sheets) {
+    sheets.points.push_back(graph.PositionOf(p));
+    sheets.radii.push_back(graph.RadiusOf(p));
+    if (births) sheets.births.push_back(p.birth);
+  }
 }
 
 ResultDocument::Labels LabelsOf(const SubjectLabels& subject) {
@@ -79,7 +80,7 @@ absl::StatusOr<ResultDocument> DocumentOf(const Subject& subject) {
   BCCSKEL_ASSIGN_OR_RETURN(ResultDocument document, FactsOf(subject.result, subject.world));
   if (subject.labels.has_value()) document.labels = LabelsOf(*subject.labels);
   const SkeletonGraph& graph = subject.result.graph;
-  const bool births = graph.HasBirths(), shifts = graph.HasShifts();
+  const bool births = graph.HasBirths();
   constexpr size_t kAtOnce = 1024;
   const auto add_nodes = [&](exec::Share share) {
     for (size_t n = share.begin; n < share.end; ++n) {
@@ -90,12 +91,18 @@ absl::StatusOr<ResultDocument> DocumentOf(const Subject& subject) {
   BCCSKEL_RETURN_IF_ERROR(context.ForEachShare(graph.nodes.size(), kAtOnce, add_nodes));
   const auto add_edges = [&](exec::Share share) {
     for (size_t n = share.begin; n < share.end; ++n) {
-      document.edges[n] = EdgeOf(graph, graph.edges[n], births, shifts);
+      SetEdge(graph, n, document);
     }
   };
+  const size_t points = graph.points.size();
   document.edges.resize(graph.edges.size());
+  document.points.resize(points);
+  document.radii.resize(points);
+  document.curves.resize(points);
+  if (births) document.births.resize(points);
+  if (graph.HasShifts()) document.shifts.resize(points);
   BCCSKEL_RETURN_IF_ERROR(context.ForEachShare(graph.edges.size(), kAtOnce, add_edges));
-  AddPoints(graph, graph.sheets, births, document.sheets);
+  AddSheets(graph, births, document.sheets);
   return document;
 }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "client/export/graph_context.h"
-#include "client/export/picture/display_curve.h"
+#include "client/export/picture/curve_colors.h"
 #include "client/export/sampled_curve.h"
 #include "core/skeleton/skeleton_graph.h"
 

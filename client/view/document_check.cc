@@ -1,6 +1,7 @@
 #include "client/view/document_check.h"
 
 #include <algorithm>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,7 +32,7 @@ absl::Status CheckRadius(const std::string& place, double radius) {
       absl::StrCat("not a JSON result of bccskel: ", place, " is ", radius, ", below 0"));
 }
 
-absl::Status CheckRadiiOf(const std::string& owner, const std::vector<double>& radii) {
+absl::Status CheckRadiiOf(const std::string& owner, std::span<const double> radii) {
   const auto negative = std::ranges::find_if(radii, [](double radius) { return !(radius >= 0); });
   if (negative == radii.end()) return absl::OkStatus();
   return CheckRadius(absl::StrCat(owner, ".radii[", negative - radii.begin(), "]"), *negative);
@@ -43,7 +44,8 @@ absl::Status CheckRadii(const ResultDocument& document) {
     return CheckRadius(absl::StrCat("nodes[", n, "].radius"), document.nodes[n].radius);
   }
   for (size_t n = 0; n < document.edges.size(); ++n) {
-    BCCSKEL_RETURN_IF_ERROR(CheckRadiiOf(absl::StrCat("edges[", n, "]"), document.edges[n].radii));
+    BCCSKEL_RETURN_IF_ERROR(
+        CheckRadiiOf(absl::StrCat("edges[", n, "]"), document.RadiiOf(document.edges[n])));
   }
   return CheckRadiiOf("sheets", document.sheets.radii);
 }

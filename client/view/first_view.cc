@@ -120,9 +120,7 @@ std::vector<WorldPoint> ShownPoints(const ResultDocument& result,
   if (!points.empty()) return points;
   points = result.sheets.points;
   for (const ResultDocument::Node& node : result.nodes) points.push_back(node.position);
-  for (const ResultDocument::Edge& edge : result.edges) {
-    points.insert(points.end(), edge.points.begin(), edge.points.end());
-  }
+  points.insert(points.end(), result.points.begin(), result.points.end());
   return points;
 }
 

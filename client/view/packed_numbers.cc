@@ -96,8 +96,9 @@ absl::StatusOr<std::string> PackText(std::string_view text, const exec::Context&
   return absl::Base64Escape(packed);
 }
 
-absl::StatusOr<std::string> PackNumbers(std::span<const uint32_t> numbers) {
-  return PackText(DifferencesOf(numbers));
+absl::StatusOr<std::string> PackNumbers(std::span<const uint32_t> numbers,
+                                        const exec::Context& context) {
+  return PackText(DifferencesOf(numbers), context);
 }
 
 }  // namespace bccskel::view

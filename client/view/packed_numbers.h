@@ -20,7 +20,8 @@ absl::StatusOr<std::string> PackText(std::string_view text, const exec::Context&
 
 // Packed as above: the difference of each number to the previous one, zigzag-encoded, in bytes of
 // seven bits.
-absl::StatusOr<std::string> PackNumbers(std::span<const uint32_t> numbers);
+absl::StatusOr<std::string> PackNumbers(std::span<const uint32_t> numbers,
+                                        const exec::Context& context = {});
 
 }  // namespace bccskel::view
 

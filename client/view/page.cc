@@ -8,7 +8,9 @@
 #include <string_view>
 #include <utility>
 
-#include "absl/strings/str_cat.h"
+#include "absl/container/flat_hash_set.h"
+#include "absl/strings/str_replace.h"
+#include "client/view/display_curve.h"
 #include "client/view/first_view.h"
 #include "client/view/packed_numbers.h"
 #include "client/view/page_parts.h"
@@ -22,7 +24,9 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
-// Quantizes coordinates to the 65,535 steps of a cube that contains everything.
+constexpr uint32_t kSteps = 65535;
+
+// Quantizes coordinates to steps of a cube that contains everything.
 struct Quantizer {
   WorldPoint low;
   double step;
@@ -51,10 +55,10 @@ Box BoxOf(const PageContent& content) {
   for (const ResultDocument::Node& node : content.result.nodes) {
     box.Include(node.position, node.radius);
   }
-  for (const ResultDocument::Edge& edge : content.result.edges) {
-    for (size_t n = 0; n < edge.points.size(); ++n) box.Include(edge.points[n], edge.radii[n]);
-  }
-  const ResultDocument::Sheets& sheets = content.result.sheets;
+  const ResultDocument& result = content.result;
+  for (size_t n = 0; n < result.points.size(); ++n) box.Include(result.points[n], result.radii[n]);
+  for (const WorldPoint& p : result.curves) box.Include(p, 0);
+  const ResultDocument::Sheets& sheets = result.sheets;
   for (size_t n = 0; n < sheets.points.size(); ++n) box.Include(sheets.points[n], sheets.radii[n]);
   if (content.peeling.layers.empty()) return box;
   for (const WorldPoint& v : content.peeling.layers.front().surface.vertices) box.Include(v, 0);
@@ -69,7 +73,7 @@ Quantizer QuantizerFor(Box box) {
   // A margin, because smoothed inner layers of thin objects may protrude from the outermost.
   const double margin = edge / 64;
   for (double& coordinate : low) coordinate -= margin;
-  return {low, edge > 0 ? (edge + 2 * margin) / 65535 : 1};
+  return {low, edge > 0 ? (edge + 2 * margin) / kSteps : 1};
 }
 
 absl::StatusOr<OrderedJson> SurfaceJson(const std::vector<WorldPoint>& vertices,
@@ -102,6 +106,47 @@ absl::StatusOr<OrderedJson> SheetsJson(const SheetSurface& sheets, const Quantiz
   return json;
 }
 
+// The values in a list, ascending, each once.
+std::vector<double> ValuesIn(const std::vector<double>& list) {
+  const absl::flat_hash_set<double> known(list.begin(), list.end());
+  std::vector<double> values(known.begin(), known.end());
+  std::ranges::sort(values);
+  return values;
+}
+
+// The points of all edges, one edge after the other. Coordinates have finer steps than those of
+// surfaces, as a view of a single branch shows them; radii are exact.
+absl::StatusOr<OrderedJson> CurvesJson(const ResultDocument& result, const Quantizer& surfaces,
+                                       const exec::Context& context) {
+  constexpr uint32_t kFineSteps = 1 << 22;
+  const Quantizer quantize = {surfaces.low, surfaces.step * kSteps / kFineSteps};
+  BCCSKEL_ASSIGN_OR_RETURN(const std::vector<WorldPoint> curves, DisplayCurvesOf(result, context));
+  const std::vector<double> radii = ValuesIn(result.radii);
+  std::vector<uint32_t> counts, coordinates(3 * curves.size()), ranks(curves.size());
+  for (const ResultDocument::Edge& edge : result.edges) {
+    counts.push_back(static_cast<uint32_t>(edge.point_count));
+  }
+  constexpr size_t kAtOnce = 1 << 14;
+  BCCSKEL_RETURN_IF_ERROR(context.ForEachShare(curves.size(), kAtOnce, [&](exec::Share share) {
+    for (size_t n = share.begin; n < share.end; ++n) {
+      for (size_t axis = 0; axis < 3; ++axis) {
+        coordinates[axis * curves.size() + n] = quantize(curves[n][axis], axis);
+      }
+      const auto rank = std::ranges::lower_bound(radii, result.radii[n]) - radii.begin();
+      ranks[n] = static_cast<uint32_t>(rank);
+    }
+  }));
+  BCCSKEL_ASSIGN_OR_RETURN(std::string packed_counts, PackNumbers(counts, context));
+  BCCSKEL_ASSIGN_OR_RETURN(std::string packed_ranks, PackNumbers(ranks, context));
+  BCCSKEL_ASSIGN_OR_RETURN(std::string packed_coordinates, PackNumbers(coordinates, context));
+  return OrderedJson{{"edges", counts.size()},
+                     {"points", curves.size()},
+                     {"counts", std::move(packed_counts)},
+                     {"radii", radii},
+                     {"ranks", std::move(packed_ranks)},
+                     {"coordinates", std::move(packed_coordinates)}};
+}
+
 Front FrontOf(const PageContent& content) {
   if (content.peeling.layers.empty()) return FrontOf(content.result, {});
   return FrontOf(content.result, content.peeling.layers.front().surface.vertices);
@@ -123,7 +168,7 @@ OrderedJson LabelsJson(const ResultDocument::Labels& labels) {
   return json;
 }
 
-absl::StatusOr<OrderedJson> DataOf(const PageContent& content) {
+absl::StatusOr<OrderedJson> DataOf(const PageContent& content, const exec::Context& context) {
   const Quantizer quantize = QuantizerFor(BoxOf(content));
   OrderedJson data = {{"title", content.title},
                       {"low", quantize.low},
@@ -139,6 +184,7 @@ absl::StatusOr<OrderedJson> DataOf(const PageContent& content) {
   }
   if (content.result.labels.has_value()) data["labels"] = LabelsJson(*content.result.labels);
   data["front"] = FrontJson(content);
+  BCCSKEL_ASSIGN_OR_RETURN(data["curves"], CurvesJson(content.result, quantize, context));
   const SheetSurface sheets = SheetSurfaceOf(content.result);
   BCCSKEL_ASSIGN_OR_RETURN(data["sheets"], SheetsJson(sheets, quantize));
   return data;
@@ -181,35 +227,25 @@ OrderedJson PruningJson(const PruningSteps& pruning) {
   return json;
 }
 
-// The part of the document that the page shows: its text, because it is large and mostly unchanged.
-std::string ShownOf(const ResultDocument& document, const exec::Context& context) {
-  const std::string steps = PruningJson(PruningStepsOf(document, context)).dump();
+// The document's text without what the page holds in another form.
+absl::StatusOr<std::string> PackResult(const ResultDocument& document,
+                                       const exec::Context& context) {
   const std::string_view text = *document.text;
-  const size_t begin = text.find('{') + 1;
+  if (document.not_on_pages.empty()) return PackText(text, context);  // it may be large
   std::string shown;
-  shown.reserve(text.size() + steps.size());
-  absl::StrAppend(&shown, "{\"pruning_steps\":", steps, ",");
-  const char* from = text.data() + begin;
+  const char* from = text.data();
   for (const std::string_view left_out : document.not_on_pages) {
     shown.append(from, left_out.data());
     shown += "null";
     from = left_out.data() + left_out.size();
   }
   shown.append(from, text.data() + text.size());
-  return shown;
+  return PackText(shown, context);
 }
 
 // JSON for a script element, which no text in it may end.
-std::string InScript(std::string_view json) {
-  std::string text;
-  for (const char c : json) {
-    if (c == '<') {
-      text += "\\u003c";
-    } else {
-      text.push_back(c);
-    }
-  }
-  return text;
+std::string InScript(const std::string& json) {
+  return absl::StrReplaceAll(json, {{"<", "\\u003c"}});
 }
 
 using Part = std::pair<std::string_view, std::string_view>;
@@ -233,15 +269,17 @@ std::string Filled(std::string_view frame, const std::vector<Part>& parts) {
 }  // namespace
 
 absl::StatusOr<std::string> PageOf(const PageContent& content, const exec::Context& context) {
-  BCCSKEL_ASSIGN_OR_RETURN(const OrderedJson data, DataOf(content));
-  BCCSKEL_ASSIGN_OR_RETURN(const std::string result,
-                           PackText(ShownOf(content.result, context), context));
+  BCCSKEL_ASSIGN_OR_RETURN(const OrderedJson data, DataOf(content, context));
+  const std::string steps = PruningJson(PruningStepsOf(content.result, context)).dump();
+  BCCSKEL_ASSIGN_OR_RETURN(const std::string pruning, PackText(steps, context));
+  BCCSKEL_ASSIGN_OR_RETURN(const std::string result, PackResult(content.result, context));
   BCCSKEL_ASSIGN_OR_RETURN(const std::string three, PackText(kThree));
   const std::string data_text =
       InScript(data.dump(-1, ' ', /*ensure_ascii=*/false, OrderedJson::error_handler_t::replace));
   return Filled(kPageFrame, {{"style", kPageStyle},
                              {"license", kThreeLicense},
                              {"data", data_text},
+                             {"pruning", pruning},
                              {"result", result},
                              {"three", three},
                              {"viewer", kViewerScripts},

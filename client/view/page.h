@@ -18,9 +18,8 @@ struct PageContent {
 
 // A self-contained page that a browser opens without a network: the object as tinted glass, its
 // skeleton and tools for both. Equal skeletons give equal bytes.
-// Surfaces are quantized to 16 bits across the object. The page contains the skeleton's document
-// without its timings and, for smooth curves, without their lattice points; sheets are stored as a
-// surface.
+// Surfaces are quantized to 16 bits across the object, curves to 22. The page contains the
+// skeleton's document without its timings; points are stored apart, sheets as a surface.
 // Errors: RESOURCE_EXHAUSTED; those of the context.
 absl::StatusOr<std::string> PageOf(const PageContent& content, const exec::Context& context = {});
 

@@ -8,9 +8,7 @@ std::vector<OpenBall> BallsOf(const ResultDocument& result, const Placement& pla
     balls.push_back({LatticePlaceOf(p, placement), radius});
   };
   for (const ResultDocument::Node& node : result.nodes) add(node.position, node.radius);
-  for (const ResultDocument::Edge& edge : result.edges) {
-    for (size_t n = 0; n < edge.points.size(); ++n) add(edge.points[n], edge.radii[n]);
-  }
+  for (size_t n = 0; n < result.points.size(); ++n) add(result.points[n], result.radii[n]);
   const ResultDocument::Sheets& sheets = result.sheets;
   for (size_t n = 0; n < sheets.points.size(); ++n) add(sheets.points[n], sheets.radii[n]);
   return balls;

@@ -51,22 +51,20 @@ Member<T> Optional(std::string_view name, T& to) {
 }
 
 // A value that is checked but not stored.
-struct Unused {
-  bool there = false;
-};
-template <typename T>
-struct WithText {
-  T& to;
-  std::string_view& text;
-};
-template <typename T>
-WithText(T&, std::string_view&) -> WithText<T>;  // clang 14 needs the guides
+struct Unused {};
 template <typename T>
 struct NotOnPages {
   T& to;
 };
 template <typename T>
-NotOnPages(T&) -> NotOnPages<T>;
+NotOnPages(T&) -> NotOnPages<T>;  // clang 14 needs the guides
+// A list of the points of the edge that is read, after those of the edges before it. Not on pages.
+template <typename T>
+struct OfPoints {
+  std::vector<T>& to;
+};
+template <typename T>
+OfPoints(std::vector<T>&) -> OfPoints<T>;
 struct Order {
   std::optional<std::vector<uint32_t>>& roots;
   std::string& rule;
@@ -152,23 +150,12 @@ class Reader {
     if (now_->kind != Kind::kString) return Complain(place, "a string");
     to = Text();
   }
-  void Read(const Place& /*place*/, Unused& to) {
-    to.there = true;
-    Skip();
-  }
-  template <typename T>
-  void Read(const Place& place, WithText<T>& to) {
-    const JsonEvent& begin = *now_;
-    Read(place, to.to);
-    if (!status_.ok() || &begin == now_) return;  // a number or the like
-    to.text = std::string_view(*to_.text).substr(begin.bits, now_->bits - begin.bits);
-  }
+  void Read(const Place& /*place*/, Unused& /*to*/) { Skip(); }
   template <typename T>
   void Read(const Place& place, NotOnPages<T>& to) {
-    std::string_view text;
-    WithText with_text{to.to, text};
-    Read(place, with_text);
-    if (!text.empty()) to_.not_on_pages.push_back(text);
+    const JsonEvent& begin = *now_;
+    Read(place, to.to);
+    if (status_.ok() && &begin != now_) LeaveOut(begin.bits);  // no number or the like
   }
   template <typename T>
   void Read(const Place& place, std::optional<T>& to) {
@@ -178,6 +165,13 @@ class Reader {
   void Read(const Place& place, std::vector<Item>& to) {
     to.clear();
     ReadItems(place, "a list", [&](const Place& at) { Read(at, to.emplace_back()); });
+  }
+  template <typename Item>
+  void Read(const Place& place, OfPoints<Item>& list) {
+    const uint64_t begin = now_->bits;
+    list.to.resize(to_.edges.back().first_point);
+    ReadItems(place, "a list", [&](const Place& at) { Read(at, list.to.emplace_back()); });
+    if (status_.ok()) LeaveOut(begin);
   }
   template <typename Item, size_t kCount>
   void Read(const Place& place, std::array<Item, kCount>& to) {
@@ -196,23 +190,33 @@ class Reader {
                Optional("loops", to.loops), Optional("cavities", to.cavities));
   }
   void Read(const Place& place, ResultDocument::Edge& to) {
-    Unused curve;
-    std::string_view stored;
-    WithText points{to.points, stored};
+    to.first_point = to_.points.size();
+    OfPoints points{to_.points};
+    OfPoints radii{to_.radii};
+    OfPoints births{to_.births};
+    OfPoints shifts{to_.shifts};
+    OfPoints curve{to_.curves};
     ReadObject(place, Required("source", to.source), Required("target", to.target),
-               Required("points", points), Required("radii", to.radii),
-               Optional("births", to.births), Optional("shifts", to.shifts),
-               Optional("curve", curve), Required("length", to.length),
+               Required("points", points), Required("radii", radii), Optional("births", births),
+               Optional("shifts", shifts), Optional("curve", curve), Required("length", to.length),
                Optional("pruning_level", to.pruning_level));
-    const size_t count = to.points.size();
-    if (count == 0 || to.radii.size() != count) {
+    const size_t end = to_.points.size();
+    to.point_count = end - to.first_point;
+    if (to.point_count == 0 || to_.radii.size() != end) {
       Complain(place, "an edge with points and as many radii");
     }
-    if (!to.births.empty() && to.births.size() != count)
-      Complain(place, "an edge with as many births as points");
-    if (!to.shifts.empty() && to.shifts.size() != count)
-      Complain(place, "an edge with as many shifts as points");
-    if (curve.there) to_.not_on_pages.push_back(stored);
+    Align(place, "an edge with as many births as points", to.first_point, to_.births);
+    Align(place, "an edge with as many shifts as points", to.first_point, to_.shifts);
+    Align(place, "an edge with a curve of as many points", to.first_point, to_.curves);
+  }
+  // An edge has a list of its points or none, whatever others have.
+  template <typename T>
+  void Align(const Place& place, std::string_view expected, size_t first, std::vector<T>& list) {
+    if (list.size() > first && list.size() != to_.points.size()) Complain(place, expected);
+    if (list.empty() || list.size() > first) return;
+    list.resize(to_.points.size());
+    const std::span<const WorldPoint> points = std::span(to_.points).subspan(first);
+    if constexpr (std::is_same_v<T, WorldPoint>) std::ranges::copy(points, &list[first]);
   }
   void Read(const Place& place, ResultDocument::Sheets& to) {
     ReadObject(place, Required("points", to.points), Required("radii", to.radii),
@@ -348,6 +352,12 @@ class Reader {
         return to_.text->substr(begin.bits, now_->bits - begin.bits);
     }
   }
+
+  // The value that ends at the current event and begins at this byte is not on pages.
+  void LeaveOut(uint64_t begin) {
+    to_.not_on_pages.push_back(std::string_view(*to_.text).substr(begin, now_->bits - begin));
+  }
+
   // The text of a string or a name.
   std::string_view Text() const {
     return std::string_view(value_->strings).substr(now_->bits, now_->size);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <stop_token>
 #include <string>
 #include <string_view>
@@ -44,10 +45,8 @@ struct ResultDocument : ResultFacts {
   struct Edge {
     uint64_t source;  // index into nodes
     uint64_t target;
-    std::vector<WorldPoint> points;
-    std::vector<double> radii;    // one per point
-    std::vector<int32_t> births;  // one per point, or none
-    std::vector<std::array<int16_t, 3>> shifts;
+    size_t first_point;  // in `points` and the lists like it
+    size_t point_count;
     double length;
     double pruning_level = std::numeric_limits<double>::infinity();
   };
@@ -65,6 +64,12 @@ struct ResultDocument : ResultFacts {
   };
   std::vector<Node> nodes;
   std::vector<Edge> edges;
+  // Of the points of all edges, one edge after the other; the last three may be empty.
+  std::vector<WorldPoint> points;
+  std::vector<double> radii;
+  std::vector<int32_t> births;
+  std::vector<std::array<int16_t, 3>> shifts;
+  std::vector<WorldPoint> curves;  // the smooth curves; older versions have none
   Sheets sheets;
   std::optional<Labels> labels;                // no document states them
   std::optional<Placement> placement;          // unknown in results of older versions
@@ -72,9 +77,16 @@ struct ResultDocument : ResultFacts {
   std::optional<std::vector<uint32_t>> roots;  // of a result with an order; indices into nodes
   std::string root_rule;                       // the rule of the roots, if the document states it
   std::shared_ptr<const std::string> text;     // the document itself
-  // Values of the document, in order, that a page holds in another form: timings, sheets, and the
-  // points of edges with a smooth curve.
+  // Values of the document, in order, that a page lacks or holds in another form: timings, sheets,
+  // and the lists of points of edges.
   std::vector<std::string_view> not_on_pages;
+
+  std::span<const WorldPoint> PointsOf(const Edge& edge) const {
+    return std::span(points).subspan(edge.first_point, edge.point_count);
+  }
+  std::span<const double> RadiiOf(const Edge& edge) const {
+    return std::span(radii).subspan(edge.first_point, edge.point_count);
+  }
 };
 
 // Errors: INVALID_ARGUMENT with the position of the first violation of the schema. Unknown members

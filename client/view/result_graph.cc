@@ -73,7 +73,18 @@ class GraphReader {
   absl::StatusOr<SkeletonGraph> Run() && {
     graph_.placement = *document_.placement;
     for (const auto& node : document_.nodes) BCCSKEL_RETURN_IF_ERROR(AddNode(node));
-    for (const auto& edge : document_.edges) BCCSKEL_RETURN_IF_ERROR(AddEdge(edge));
+    BCCSKEL_RETURN_IF_ERROR(
+        AddPoints(document_.points, document_.radii, document_.births, graph_.points));
+    for (size_t n = 0; n < document_.shifts.size(); ++n) {
+      graph_.points[n].shift = document_.shifts[n];
+    }
+    for (const auto& edge : document_.edges) {
+      graph_.edges.push_back({.source = static_cast<uint32_t>(edge.source),
+                              .target = static_cast<uint32_t>(edge.target),
+                              .first_point = edge.first_point,
+                              .point_count = edge.point_count,
+                              .pruning_level = edge.pruning_level});
+    }
     const ResultDocument::Sheets& sheets = document_.sheets;
     BCCSKEL_RETURN_IF_ERROR(AddPoints(sheets.points, sheets.radii, sheets.births, graph_.sheets));
     return std::move(graph_);
@@ -92,24 +103,10 @@ class GraphReader {
     return absl::OkStatus();
   }
 
-  absl::Status AddEdge(const ResultDocument::Edge& from) {
-    if (stop_.stop_requested()) return absl::CancelledError("interrupted");
-    const SkeletonEdge edge = {.source = static_cast<uint32_t>(from.source),
-                               .target = static_cast<uint32_t>(from.target),
-                               .first_point = graph_.points.size(),
-                               .point_count = from.points.size(),
-                               .pruning_level = from.pruning_level};
-    BCCSKEL_RETURN_IF_ERROR(AddPoints(from.points, from.radii, from.births, graph_.points));
-    for (size_t n = 0; n < from.shifts.size(); ++n) {
-      graph_.points[edge.first_point + n].shift = from.shifts[n];
-    }
-    graph_.edges.push_back(edge);
-    return absl::OkStatus();
-  }
-
   absl::Status AddPoints(const std::vector<WorldPoint>& at, const std::vector<double>& radii,
                          const std::vector<int32_t>& births, std::vector<SkeletonPoint>& to) const {
     for (size_t n = 0; n < at.size(); ++n) {
+      if (n % 4096 == 0 && stop_.stop_requested()) return absl::CancelledError("interrupted");
       BCCSKEL_ASSIGN_OR_RETURN(to.emplace_back(), lattice_.PointAt(at[n], radii[n]));
       if (!births.empty()) to.back().birth = births[n];
     }

@@ -35,7 +35,7 @@ std::optional<LatticePoint> NearestPoint(const std::array<double, 3>& place) {
 std::vector<uint32_t> LabelsOfBalls(const ResultDocument& result) {
   std::vector<uint32_t> labels = result.labels->of_nodes;
   for (const ResultDocument::Edge& edge : result.edges) {
-    labels.insert(labels.end(), edge.points.size(), result.labels->of_nodes[edge.source]);
+    labels.insert(labels.end(), edge.point_count, result.labels->of_nodes[edge.source]);
   }
   labels.insert(labels.end(), result.labels->of_sheets.begin(), result.labels->of_sheets.end());
   return labels;

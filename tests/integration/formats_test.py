@@ -495,9 +495,13 @@ class FormatsTest(harness.TestCase):
             shown = json.loads(zlib.decompress(base64.b64decode(packed)))
             data = json.loads(data)
             self.assertEqual(shown["nodes"], document["nodes"])
-            self.assertEqual([e["curve"] for e in shown["edges"]],
-                             [e["curve"] for e in document["edges"]])
-            self.assertIsNone(shown["timings"])
+            self.assertEqual([e["length"] for e in shown["edges"]],
+                             [e["length"] for e in document["edges"]])
+            self.assertEqual(data["curves"]["points"],
+                             sum(len(e["points"]) for e in document["edges"]))
+            self.assertEqual(data["curves"]["radii"],
+                             sorted({radius for e in document["edges"] for radius in e["radii"]}))
+            self.assertNotIn("timings", shown)
             self.assertGreater(data["layers"][0]["triangles"], 0)
 
     @unittest.skipIf(shutil.which("exrheader") is None, "openexr is not installed")

@@ -101,6 +101,14 @@ class ViewTest(PageTestCase):
                              ".map((cell) => cell.textContent).join()"),
                     f"1,1,0,0,{cavities},{cavities}")
 
+    def test_curves_lead_from_node_to_node(self):
+        self.page("tree")
+        self.assertEqual(self.open().run("""result.edges.filter((e, id) =>
+            [[curveStart[id], e.source], [curveStart[id + 1] - 1, e.target]].some(([at, node]) =>
+              curvePoint(at).distanceTo(new THREE.Vector3(...toScene(nodeAt[node].position))) > 1e-6)
+            || curvePoints.slice(3 * curveStart[id], 3 * curveStart[id + 1]).some((v) => !(v > 0 && v < 1))
+          ).length"""), 0)
+
     def test_the_peeled_object_is_seen(self):
         self.page("tree")
         pictures = []

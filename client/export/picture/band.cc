@@ -98,21 +98,18 @@ void Band::DrawBead(const Bead& bead) {
   const Span rows = SpanOf(bead.y - bead.radius, bead.y + bead.radius, top_, rows_);
   const Span columns = SpanOf(bead.x - bead.radius, bead.x + bead.radius, 0, width_);
   if (rows.begin >= rows.end || columns.begin >= columns.end) return;
-  across_.clear();
-  for (int x = columns.begin; x < columns.end; ++x) {
-    across_.push_back((static_cast<float>(x) - bead.x) / bead.radius);
-  }
-  const float nearest = bead.depth + bead.radius;
+  const float nearest = bead.depth + bead.radius, per_sample = 1 / bead.radius;
   for (int y = rows.begin; y < rows.end; ++y) {
-    const float dy = (bead.y - static_cast<float>(y)) / bead.radius;
-    const size_t first = Index(columns.begin, y - top_);
-    for (size_t n = 0; n < across_.size(); ++n) {
-      const float hidden = bead_.depths[first + n];
+    const float dy = (bead.y - static_cast<float>(y)) * per_sample;
+    size_t at = Index(columns.begin, y - top_);
+    for (int x = columns.begin; x < columns.end; ++x, ++at) {
+      const float hidden = bead_.depths[at];
       if (nearest <= hidden) continue;
-      const float dx = across_[n], rest = 1 - dx * dx - dy * dy;
+      const float dx = (static_cast<float>(x) - bead.x) * per_sample;
+      const float rest = 1 - dx * dx - dy * dy;
       if (rest < 0) continue;
       const float rise = std::sqrt(rest), depth = bead.depth + bead.radius * rise;
-      if (depth > hidden) bead_.Set(first + n, {depth, {dx, dy, rise}, bead.color});
+      if (depth > hidden) bead_.Set(at, {depth, {dx, dy, rise}, bead.color});
     }
   }
 }

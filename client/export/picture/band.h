@@ -114,7 +114,6 @@ class Band {
   Hits near_;
   Hits far_;
   Hits bead_;
-  std::vector<float> across_;  // for DrawBead(): where columns lie, in radii
 };
 
 inline constexpr float kNothing = std::numeric_limits<float>::infinity();

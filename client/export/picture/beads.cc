@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "client/view/display_curve.h"
 #include "core/exec/status_macros.h"
 
 namespace bccskel::exporting {
@@ -32,18 +33,20 @@ struct Stringer {
   double thickness;
   double step;
 
-  void AddEdge(const view::ResultDocument::Edge& edge, const std::vector<WorldPoint>& curve,
-               std::vector<Bead>& beads) const {
+  // Needs: `curve` and `radii` have an item for each point of the edge.
+  void AddEdge(const view::ResultDocument::Edge& edge, std::span<const WorldPoint> curve,
+               std::span<const double> radii, std::vector<Bead>& beads) const {
     if (curve.empty()) return;
     PanelPoint to = projection.Project(curve.front());
     for (size_t n = 1; n < curve.size(); ++n) {
       const PanelPoint from = std::exchange(to, projection.Project(curve[n]));
-      const int steps = 1 + static_cast<int>(std::hypot(to.x - from.x, to.y - from.y) / step);
+      const double dx = to.x - from.x, dy = to.y - from.y;
+      const int steps = 1 + static_cast<int>(std::sqrt(dx * dx + dy * dy) / step);
       for (int k = 0; k < steps; ++k) {
         const double part = static_cast<double>(k) / steps;
-        const double radius = edge.radii[n - 1] + part * (edge.radii[n] - edge.radii[n - 1]);
+        const double radius = radii[n - 1] + part * (radii[n] - radii[n - 1]);
         beads.push_back(BeadAt(Between(from, to, part), thickness,
-                               LinearOf(colors.Rgb(colors.NumberAt(edge, radius)))));
+                               colors.Linear(colors.NumberAt(edge, radius))));
       }
     }
   }
@@ -74,6 +77,7 @@ CurveColors::CurveColors(const view::ResultDocument& result)
   for (size_t n = 0; n < count; ++n) {
     colors_.push_back(labeled() ? LabelRgb(static_cast<uint32_t>(n))
                                 : RadiusRgb(static_cast<int>(n)));
+    linear_.push_back(LinearOf(colors_.back()));
   }
 }
 
@@ -85,26 +89,19 @@ RadiusRange RadiusRangeOf(const view::ResultDocument& result) {
     range.high = std::max(range.high, radius);
   };
   for (const view::ResultDocument::Node& node : result.nodes) include(node.radius);
-  for (const view::ResultDocument::Edge& edge : result.edges)
-    std::ranges::for_each(edge.radii, include);
+  std::ranges::for_each(result.radii, include);
   std::ranges::for_each(result.sheets.radii, include);
   return range;
 }
 
 BeadStrings::BeadStrings(const view::ResultDocument& result) : result_(result), colors_(result) {
   for (const view::ResultDocument::Edge& edge : result.edges) length_ += edge.length;
-  curves_.resize(result.edges.size());
 }
 
 absl::StatusOr<BeadStrings> BeadStrings::Of(const view::ResultDocument& result,
                                             const exec::Context& context) {
   BeadStrings strings(result);
-  const auto smooth = [&](exec::Share share) {
-    for (size_t n = share.begin; n < share.end; ++n) {
-      strings.curves_[n] = SmoothedForDisplay(result.edges[n].points);
-    }
-  };
-  BCCSKEL_RETURN_IF_ERROR(context.ForEachShare(result.edges.size(), kAtOnce, smooth));
+  BCCSKEL_ASSIGN_OR_RETURN(strings.curves_, view::DisplayCurvesOf(result, context));
   return strings;
 }
 
@@ -118,7 +115,8 @@ absl::StatusOr<Beads> BeadStrings::In(const Projection& projection, double thick
     std::vector<Bead>& part = beads[share.begin / kAtOnce];
     for (size_t n = share.begin; n < share.end; ++n) {
       if (n < edges) {
-        stringer.AddEdge(result_.edges[n], curves_[n], part);
+        const view::ResultDocument::Edge& edge = result_.edges[n];
+        stringer.AddEdge(edge, CurveOf(edge), result_.RadiiOf(edge), part);
       } else {
         stringer.AddNode(result_.nodes[n - edges], part);
       }

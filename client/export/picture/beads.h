@@ -3,10 +3,11 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "absl/status/statusor.h"
-#include "client/export/picture/display_curve.h"
+#include "client/export/picture/curve_colors.h"
 #include "client/export/picture/projection.h"
 #include "client/view/result_document.h"
 #include "core/exec/context.h"
@@ -50,6 +51,7 @@ class CurveColors {
   const std::array<double, 3>& Rgb(int number) const {
     return colors_[static_cast<size_t>(number)];
   }
+  const LinearColor& Linear(int number) const { return linear_[static_cast<size_t>(number)]; }
   const RadiusRange& range() const { return range_; }
 
  private:
@@ -60,6 +62,7 @@ class CurveColors {
   const view::ResultDocument::Sheets& sheets_;
   RadiusRange range_;
   std::vector<std::array<double, 3>> colors_;  // 0..255 each
+  std::vector<LinearColor> linear_;            // the same
 };
 
 inline constexpr LinearColor kEndColor = {0.06f, 0.72f, 0.51f};
@@ -80,16 +83,18 @@ class BeadStrings {
                            const exec::Context& context) const;
 
   const CurveColors& colors() const { return colors_; }
-  // Of an edge, smoothed.
-  const std::vector<WorldPoint>& curve(size_t edge) const { return curves_[edge]; }
+  // As it is drawn.
+  std::span<const WorldPoint> CurveOf(const view::ResultDocument::Edge& edge) const {
+    return std::span(curves_).subspan(edge.first_point, edge.point_count);
+  }
 
  private:
   explicit BeadStrings(const view::ResultDocument& result);
 
   const view::ResultDocument& result_;
   CurveColors colors_;
-  double length_ = 0;  // of all edges
-  std::vector<std::vector<WorldPoint>> curves_;
+  double length_ = 0;               // of all edges
+  std::vector<WorldPoint> curves_;  // of all edges
 };
 
 }  // namespace bccskel::exporting

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -10,7 +11,7 @@
 #include "absl/strings/escaping.h"
 #include "client/export/picture/beads.h"
 #include "client/export/picture/caption.h"
-#include "client/export/picture/display_curve.h"
+#include "client/export/picture/curve_colors.h"
 #include "client/export/picture/escape.h"
 #include "client/export/picture/glass_image.h"
 #include "client/export/picture/projection.h"
@@ -54,8 +55,7 @@ struct Scene {
 
 absl::StatusOr<Scene> SceneOf(const SvgContent& content) {
   BCCSKEL_ASSIGN_OR_RETURN(BeadStrings strings, BeadStrings::Of(content.result, content.context));
-  size_t points = content.result.nodes.size();
-  for (const view::ResultDocument::Edge& edge : content.result.edges) points += edge.points.size();
+  const size_t points = content.result.nodes.size() + content.result.points.size();
   return Scene{.content = content,
                .result = content.result,
                .shown = view::ShownPoints(content.result, content.surface.vertices),
@@ -87,7 +87,7 @@ absl::StatusOr<Beads> BeadsOf(const Scene& scene, const Projection& projection, 
     const PanelPoint p = projection.Project(sheets.points[n]);
     of_sheets.push_back({static_cast<float>(p.x), static_cast<float>(p.y),
                          static_cast<float>(p.depth), static_cast<float>(radius),
-                         LinearOf(colors.Rgb(colors.NumberOfSheet(n)))});
+                         colors.Linear(colors.NumberOfSheet(n))});
   }
   return beads;
 }
@@ -122,10 +122,10 @@ void AppendStrokes(const Scene& scene, size_t number, const Projection& projecti
                    std::vector<Stroke>& strokes) {
   constexpr size_t kLongest = 12;
   const view::ResultDocument::Edge& edge = scene.result.edges[number];
-  const std::vector<WorldPoint>& curve = scene.strings.curve(number);
+  const std::span<const WorldPoint> curve = scene.strings.CurveOf(edge);
+  const std::span<const double> radii = scene.result.RadiiOf(edge);
   for (size_t n = 1; n < curve.size(); ++n) {
-    const int color =
-        scene.strings.colors().NumberAt(edge, (edge.radii[n - 1] + edge.radii[n]) / 2);
+    const int color = scene.strings.colors().NumberAt(edge, (radii[n - 1] + radii[n]) / 2);
     const PanelPoint p = projection.Project(curve[n - 1]);
     const bool starts =
         n == 1 || strokes.back().color != color || strokes.back().points.size() >= kLongest;

@@ -13,12 +13,12 @@ let order = byLevel;  // without hidden parts
 // ---- Graphs ----
 
 // The result's own items come first, then those that pruning creates. Each step of the slider is
-// the difference from the previous one (../pruning_steps.h).
-const { steps } = result.pruning_steps;
+// the difference from the previous one.
+const { steps } = pruning;
 const levels = steps.map(({ level }) => level);
-const nodeAt = [...result.nodes, ...result.pruning_steps.nodes];
-const stateAt = [...result.nodes.map(({ kind }, n) => [n, kind]), ...result.pruning_steps.states];
-const branchAt = [...result.edges.map(ownBranch), ...result.pruning_steps.branches];
+const nodeAt = [...result.nodes, ...pruning.nodes];
+const stateAt = [...result.nodes.map(({ kind }, n) => [n, kind]), ...pruning.states];
+const branchAt = [...result.edges.map(ownBranch), ...pruning.branches];
 branchAt.forEach(measureBranch);
 
 function ownBranch(e, id) {

@@ -26,22 +26,7 @@ labels?.of_nodes.forEach((label, n) => {
 });
 const partOf = ({ component = 0 }) => labels ? labelOfComponent[component] : component;
 
-// ---- Packed numbers ----
-
-async function unpack(text, count) {
-  const packed = await inflate(text);
-  const numbers = new Uint32Array(count);
-  for (let n = 0, at = 0, value = 0; n < count; ++n) {
-    let zigzag = 0, unit = 1, byte;
-    do {
-      byte = packed[at++];
-      zigzag += (byte & 127) * unit;
-      unit *= 128;
-    } while (byte & 128);
-    numbers[n] = value += zigzag % 2 ? -(zigzag + 1) / 2 : zigzag / 2;
-  }
-  return numbers;
-}
+// ---- Surfaces ----
 
 // The scene is the world, moved and scaled so that the cube around everything has edges of 1.
 const edge = 65535 * data.step;

@@ -1,24 +1,6 @@
 // ---- Curves ----
 
-// Results of older versions have no smooth curves: the steps of the lattice are smoothed here.
-function displayCurve(e) {
-  let curve = (e.curve || e.points).map(toScene);
-  for (let turn = e.curve ? 2 : 6; turn > 0; --turn) {
-    curve = curve.map((p, n) => n === 0 || n === curve.length - 1 ? p :
-      p.map((v, axis) => (curve[n - 1][axis] + 2 * v + curve[n + 1][axis]) / 4));
-  }
-  return curve;
-}
-
-// All curves concatenated: many small lists would be slow to search.
-const curveStart = new Uint32Array(result.edges.length + 1);
-result.edges.forEach((e, id) => { curveStart[id + 1] = curveStart[id] + e.radii.length; });
 const pointCount = curveStart[result.edges.length];
-const curvePoints = new Float32Array(3 * pointCount);
-result.edges.forEach((e, id) => {
-  curvePoints.set(displayCurve(e).flat(), 3 * curveStart[id]);
-  e.curve = e.points = null;
-});
 const curvePoint = (at) => new THREE.Vector3().fromArray(curvePoints, 3 * at);
 // Center and radius of a ball around each curve.
 const curveBalls = new Float32Array(4 * result.edges.length);

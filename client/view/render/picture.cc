@@ -90,7 +90,7 @@ absl::StatusOr<Geometry> GeometryOf(const ResultDocument& result, const DisplayS
   const exporting::CurveColors& colors = strings.colors();
   for (size_t n = 0; n < sheets.radii.size(); ++n) {
     geometry.sheets.colors.push_back(
-        exporting::LinearOf(colors.Rgb(colors.NumberOf(sheets.labels, n, sheets.radii[n]))));
+        colors.Linear(colors.NumberOf(sheets.labels, n, sheets.radii[n])));
   }
   const double thickness =
       kSamplesPerPixel * std::min(options.width, options.height) / 320.0 * ThinnedBy(result, shown);

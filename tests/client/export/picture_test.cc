@@ -5,7 +5,7 @@
 
 #include "client/export/json.h"
 #include "client/export/picture/caption.h"
-#include "client/export/picture/display_curve.h"
+#include "client/export/picture/curve_colors.h"
 #include "client/export/picture/escape.h"
 #include "client/export/picture/glass_image.h"
 #include "client/export/picture/projection.h"
@@ -72,17 +72,7 @@ TEST(ProjectionTest, OnePointLandsInTheMiddle) {
   EXPECT_DOUBLE_EQ(p.y, 40);
 }
 
-TEST(DisplayCurveTest, SmoothingLeavesTheEndsWhereTheyAre) {
-  const Sample sample = SampleOf(Shape::kTree);
-  for (const auto& edge : DocumentOf(sample).edges) {
-    const std::vector<WorldPoint> curve = SmoothedForDisplay(edge.points);
-    ASSERT_EQ(curve.size(), edge.points.size());
-    EXPECT_EQ(curve.front(), edge.points.front());
-    EXPECT_EQ(curve.back(), edge.points.back());
-  }
-}
-
-TEST(DisplayCurveTest, ColorsRunFromThinToThick) {
+TEST(CurveColorsTest, ColorsRunFromThinToThick) {
   EXPECT_EQ(RadiusColorIndex(1, {1, 5}), 0);
   EXPECT_EQ(RadiusColorIndex(5, {1, 5}), kRadiusColors - 1);
   EXPECT_EQ(RadiusColorIndex(3, {3, 3}), kRadiusColors / 2);
@@ -90,7 +80,7 @@ TEST(DisplayCurveTest, ColorsRunFromThinToThick) {
   EXPECT_EQ(RadiusColor(kRadiusColors - 1), "#f59e0b");
 }
 
-TEST(DisplayCurveTest, NeighboringLabelsHaveDistantHues) {
+TEST(CurveColorsTest, NeighboringLabelsHaveDistantHues) {
   EXPECT_EQ(HexColor(LabelRgb(0)), "#b42222");
   EXPECT_EQ(HexColor(LabelRgb(1)), "#224db4");
   EXPECT_EQ(HexColor(LabelRgb(7)), "#28b422");
@@ -112,20 +102,16 @@ view::ResultDocument Comb(size_t branches, size_t points) {
   view::ResultDocument document = DocumentOf(SampleOf(Shape::kTree));
   document.nodes = {{.kind = "end", .position = {0, 0, 0}, .radius = 1}};
   document.edges.clear();
+  document.points.clear();
   for (size_t n = 0; n < branches; ++n) {
-    view::ResultDocument::Edge edge = {.source = 0,
-                                       .target = 0,
-                                       .points = {},
-                                       .radii = {},
-                                       .births = {},
-                                       .shifts = {},
-                                       .length = 1};
+    document.edges.push_back(
+        {.source = 0, .target = 0, .first_point = n * points, .point_count = points, .length = 1});
     for (size_t p = 0; p < points; ++p) {
-      edge.points.push_back({static_cast<double>(p), static_cast<double>(n), 0});
-      edge.radii.push_back(1);
+      document.points.push_back({static_cast<double>(p), static_cast<double>(n), 0});
     }
-    document.edges.push_back(std::move(edge));
   }
+  document.radii.assign(document.points.size(), 1);
+  document.curves = document.points;
   return document;
 }
 
@@ -146,9 +132,7 @@ TEST(PictureTest, WithoutAnObjectShowsTheWholeCurves) {
   const std::string svg = *SvgText({title, document, no_object});
   EXPECT_THAT(svg, HasSubstr("skeleton: " + Counted(document.edges.size(), "branch", "branches")));
   const std::vector<WorldPoint> shown = view::ShownPoints(document, {});
-  for (const auto& edge : document.edges) {
-    for (const WorldPoint& p : edge.points) EXPECT_EQ(std::ranges::count(shown, p) > 0, true);
-  }
+  for (const WorldPoint& p : document.points) EXPECT_GT(std::ranges::count(shown, p), 0);
 }
 
 TEST(SubjectDocumentTest, DrawsThePictureOfTheOneReadFromTheText) {
@@ -166,13 +150,16 @@ TEST(SubjectDocumentTest, EqualsTheOneReadFromTheText) {
     EXPECT_EQ(made.object_points, read.object_points);
     ASSERT_EQ(made.edges.size(), read.edges.size());
     for (size_t n = 0; n < read.edges.size(); ++n) {
-      EXPECT_EQ(made.edges[n].points, read.edges[n].points);
-      EXPECT_EQ(made.edges[n].radii, read.edges[n].radii);
-      EXPECT_EQ(made.edges[n].births, read.edges[n].births);
-      EXPECT_EQ(made.edges[n].shifts, read.edges[n].shifts);
+      EXPECT_EQ(made.edges[n].first_point, read.edges[n].first_point);
+      EXPECT_EQ(made.edges[n].point_count, read.edges[n].point_count);
       EXPECT_EQ(made.edges[n].length, read.edges[n].length);
       EXPECT_EQ(made.edges[n].pruning_level, read.edges[n].pruning_level);
     }
+    EXPECT_EQ(made.points, read.points);
+    EXPECT_EQ(made.radii, read.radii);
+    EXPECT_EQ(made.births, read.births);
+    EXPECT_EQ(made.shifts, read.shifts);
+    EXPECT_EQ(made.curves, read.curves);
     EXPECT_EQ(made.sheets.points, read.sheets.points);
     EXPECT_EQ(made.sheets.radii, read.sheets.radii);
     EXPECT_EQ(made.sheets.births, read.sheets.births);

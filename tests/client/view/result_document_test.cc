@@ -50,7 +50,7 @@ TEST(ResultDocumentTest, HoldsWhatTheJsonExportWrote) {
       EXPECT_EQ(document->nodes[n].radius, graph.RadiusOf(graph.nodes[n].at));
     }
     for (size_t n = 0; n < graph.edges.size(); ++n) {
-      EXPECT_EQ(document->edges[n].points.size(), graph.PointsOf(graph.edges[n]).size());
+      EXPECT_EQ(document->edges[n].point_count, graph.PointsOf(graph.edges[n]).size());
       EXPECT_EQ(document->edges[n].source, graph.edges[n].source);
     }
   }
@@ -85,13 +85,13 @@ TEST(ResultDocumentTest, IgnoresWhatItDoesNotKnow) {
   EXPECT_TRUE(ParseResultDocument(SmallWith("[null]", deep)).ok());
   const auto document = ParseResultDocument(kSmall);
   ASSERT_TRUE(document.ok()) << document.status();
-  EXPECT_EQ(document->edges[0].points[1], (WorldPoint{1, 1, 1.5}));
+  EXPECT_EQ(document->points[1], (WorldPoint{1, 1, 1.5}));
   EXPECT_THAT(*document->text, HasSubstr("\"something_new\":[null]"));
 }
 
 TEST(ResultDocumentTest, KnowsWhatPagesHaveInAnotherForm) {
   const std::string text = SmallWith(
-      "\"length\":2}", R"("curve":[[0,0,0]],"length":2},{"source":0,"target":0,"curve":[],)"
+      "\"length\":2}", R"("curve":[[0,0,0],[1,1,1]],"length":2},{"source":0,"target":0,"curve":[],)"
                        R"("radii":[1], "points" : [ [0,0,0] ] ,"length":0},)"
                        R"({"source":0,"target":0,"points":[[9,9,9]],"radii":[1],"length":0})");
   const auto document = ParseResultDocument(
@@ -99,8 +99,12 @@ TEST(ResultDocumentTest, KnowsWhatPagesHaveInAnotherForm) {
       {"points":[],"radii":[]})"));
   ASSERT_TRUE(document.ok()) << document.status();
   EXPECT_EQ(document->edges.size(), 3u);
-  EXPECT_THAT(document->not_on_pages, ElementsAre("[[0,0,0],[1,1,1.5]]", "[ [0,0,0] ]",
-                                                  R"({"a":[1]})", R"({"points":[],"radii":[]})"));
+  EXPECT_THAT(
+      document->not_on_pages,
+      ElementsAre("[[0,0,0],[1,1,1.5]]", "[1,0.5]", "[[0,0,0],[1,1,1]]", "[]", "[1]", "[ [0,0,0] ]",
+                  "[[9,9,9]]", "[1]", R"({"a":[1]})", R"({"points":[],"radii":[]})"));
+  EXPECT_THAT(document->curves, ElementsAre(WorldPoint{0, 0, 0}, WorldPoint{1, 1, 1},
+                                            WorldPoint{0, 0, 0}, WorldPoint{9, 9, 9}));
 }
 
 TEST(ResultDocumentTest, OptionsKeepTheirOrder) {
@@ -147,6 +151,8 @@ TEST(ResultDocumentTest, NamesThePlaceOfADefect) {
        "order names node 2; there are 2"},
       {SmallWith("\"length\":2", "\"length\":2,\"births\":[1]"),
        "edges[0] is not an edge with as many births"},
+      {SmallWith("\"length\":2", "\"length\":2,\"curve\":[[0,0,0]]"),
+       "edges[0] is not an edge with a curve of as many points"},
       {SmallWith("\"length\":2", "\"length\":2,\"shifts\":[[0,0,32768],[0,0,0]]"),
        "edges[0].shifts[0][2] is not an integer in range"},
       // also where nothing is kept

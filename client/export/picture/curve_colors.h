@@ -1,5 +1,5 @@
-#ifndef BCCSKEL_CLIENT_EXPORT_PICTURE_DISPLAY_CURVE_H_
-#define BCCSKEL_CLIENT_EXPORT_PICTURE_DISPLAY_CURVE_H_
+#ifndef BCCSKEL_CLIENT_EXPORT_PICTURE_CURVE_COLORS_H_
+#define BCCSKEL_CLIENT_EXPORT_PICTURE_CURVE_COLORS_H_
 
 #include <array>
 #include <cstdint>
@@ -9,10 +9,6 @@
 #include "core/skeleton/skeleton_graph.h"
 
 namespace bccskel::exporting {
-
-// Smooths the steps of the lattice in an edge's points; keeps the first and the last point. For
-// pictures only; every other format holds the exact points.
-std::vector<WorldPoint> SmoothedForDisplay(std::vector<WorldPoint> points);
 
 // The range of radii of a graph's points, nodes and sheets; {0, 0} for an empty graph.
 struct RadiusRange {
@@ -33,4 +29,4 @@ std::string HexColor(const std::array<double, 3>& rgb);                   // "#r
 
 }  // namespace bccskel::exporting
 
-#endif  // BCCSKEL_CLIENT_EXPORT_PICTURE_DISPLAY_CURVE_H_
+#endif  // BCCSKEL_CLIENT_EXPORT_PICTURE_CURVE_COLORS_H_

@@ -1,4 +1,4 @@
-#include "client/export/picture/display_curve.h"
+#include "client/export/picture/curve_colors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,31 +7,12 @@
 namespace bccskel::exporting {
 namespace {
 
-constexpr int kSmoothingSteps = 6;
-
-// One binomial smoothing step; the first and the last point stay.
-void SmoothOnce(std::vector<WorldPoint>& points) {
-  WorldPoint before = points.front();
-  for (size_t n = 1; n + 1 < points.size(); ++n) {
-    const WorldPoint here = points[n];
-    for (size_t axis = 0; axis < 3; ++axis) {
-      points[n][axis] = (before[axis] + 2 * here[axis] + points[n + 1][axis]) / 4;
-    }
-    before = here;
-  }
-}
-
 using Rgb = std::array<double, 3>;
 // Dark enough on white everywhere, and distinguishable without red and green.
 constexpr std::array<Rgb, 5> kRadiusScale = {
     {{46, 16, 101}, {124, 29, 130}, {196, 45, 96}, {235, 94, 40}, {245, 158, 11}}};
 
 }  // namespace
-
-std::vector<WorldPoint> SmoothedForDisplay(std::vector<WorldPoint> points) {
-  for (int step = 0; step < kSmoothingSteps && !points.empty(); ++step) SmoothOnce(points);
-  return points;
-}
 
 RadiusRange RadiusRangeOf(const SkeletonGraph& graph) {
   if (graph.nodes.empty()) return {0, 0};
