@@ -283,6 +283,7 @@ std::variant<ServerConfig, ExitRequest> ParseServerConfig(int argc, const char* 
   const GivenValues file = FromFile(line, variable, resolver);
   Resolve(settings, line.values, ReadEnvironment(settings, variable), file, resolver);
   RefuseUnknown(settings, file, resolver);
+  if (!resolver.origins.contains("max-jobs")) config.limits.max_jobs = config.limits.threads;
   CheckTogether(config, resolver);
   const int code = resolver.problems.empty() ? 0 : kUsageError;
   if (line.actions.contains("check-config")) {

@@ -53,6 +53,11 @@ TEST(ServerConfig, TakesEveryFlag) {
   EXPECT_EQ(config.log_level, "warning");
 }
 
+TEST(ServerConfig, RunsAsManyJobsAsThreadsUnlessToldOtherwise) {
+  EXPECT_EQ(Parsed({"--threads", "3"}).limits.max_jobs, 3);
+  EXPECT_EQ(Parsed({"--max-jobs", "5"}).limits.max_jobs, 5);
+}
+
 class BadFlagTest : public testing::TestWithParam<std::vector<const char*>> {};
 
 TEST_P(BadFlagTest, EndsWithCodeTwoAndNamesTheFlag) {
