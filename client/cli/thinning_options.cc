@@ -250,8 +250,8 @@ RootChoice ReadRoot(const std::string& text) {
   const auto all_read = [&](int end) { return text.size() == static_cast<size_t>(end); };
   int end = 0;
   if (text.starts_with("node:")) {
-    choice.rule = RootChoice::Rule::kNode;
-    choice.node = ReadCount<uint32_t>("--root node", text.substr(5));
+    choice.rule = RootChoice::Rule::kNodes;
+    choice.nodes = {ReadCount<uint32_t>("--root node", text.substr(5))};
     return choice;
   }
   WorldPoint& p = choice.point;
@@ -307,7 +307,7 @@ absl::Status ValidateOptions(const SkeletonizeOptions& options) {
 }
 
 absl::Status ValidateRootOfLabels(const std::optional<RootChoice>& root) {
-  if (!root.has_value() || root->rule != RootChoice::Rule::kNode) return absl::OkStatus();
+  if (!root.has_value() || root->rule != RootChoice::Rule::kNodes) return absl::OkStatus();
   return absl::InvalidArgumentError("--root node:N names a node of one skeleton; labels have many");
 }
 

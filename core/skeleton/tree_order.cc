@@ -38,7 +38,6 @@ class Ordering {
     parent_edge_.resize(graph.nodes.size(), kNoRow);
     reached_.resize(graph.nodes.size());
     chosen_.resize(graph.nodes.size());
-    if (choice.rule == RootChoice::Rule::kNode) chosen_[choice.node] = 1;
     if (choice.rule != RootChoice::Rule::kNodes) return;
     for (const uint32_t node : choice.nodes) chosen_[node] = 1;
   }
@@ -159,10 +158,7 @@ class Ordering {
 }  // namespace
 
 absl::Status CheckRootChoice(const RootChoice& choice, const SkeletonGraph& graph) {
-  std::vector<uint32_t> nodes;
-  if (choice.rule == RootChoice::Rule::kNode) nodes = {choice.node};
-  if (choice.rule == RootChoice::Rule::kNodes) nodes = choice.nodes;
-  for (const uint32_t node : nodes) {
+  for (const uint32_t node : choice.nodes) {
     if (node < graph.nodes.size()) continue;
     return absl::InvalidArgumentError(absl::StrCat("root node ", node, ": the skeleton has ",
                                                    graph.nodes.size(), " nodes, counted from 0"));

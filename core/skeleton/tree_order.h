@@ -20,8 +20,6 @@ struct RootChoice {
     kThickestEnd,
     // The node nearest to `point`, for each component.
     kNearestNode,
-    // `node` in its own component, the thickest end in the others.
-    kNode,
     // The deepest node of each component.
     kDeepestNode,
     // The nodes in `nodes`; the thickest end in components without one.
@@ -29,7 +27,6 @@ struct RootChoice {
   };
   Rule rule = Rule::kThickestEnd;
   WorldPoint point = {0, 0, 0};
-  uint32_t node = 0;
   std::vector<uint32_t> nodes = {};
 
   friend bool operator==(const RootChoice&, const RootChoice&) = default;

@@ -101,6 +101,7 @@ class SkeletonsTest(harness.TestCase):
         ordered = bccskel.skeletonize(self.mask, spacing=(2, 1, 1), root=tuple(near))
         self.assertEqual(ordered.order["roots"][ordered.node_components[0]], 0)
         self.assertEqual(ordered.order["root_distance"][0], 0)
+        self.assertFalse(ordered.order["root_distance"].flags.writeable)
         self.assertEqual(sorted(ordered.to_pandas()["generation"].dropna()), [0, 1, 1])
         self.assertIn("root_distance", ordered.to_networkx().nodes[0])
 

@@ -75,6 +75,19 @@ class PickleTest(harness.TestCase):
             with self.assertRaises((ValueError, RuntimeError)):
                 kind.__new__(kind).__setstate__({**state, "result": damaged})
 
+    def test_pickles_that_contradict_themselves_are_refused(self):
+        labels = bccskel.skeletonize_labels(crossing_bars().astype("u1"), root="thickest-end")
+        outcome = labels[1]._outcome
+        state = outcome.__getstate__()
+        runs = state["label"][4]
+        for name, value in (
+                ("root", (0, (0, 0, 0), [1000])), ("root", (9, (0, 0, 0), [])),
+                ("label", (*state["label"][:4], runs + (0, 0, 0, 1000))),
+                ("label", (*state["label"][:4], runs - (1000, 0, 0, 0))),
+                ("grid", None), ("grid", (-1, *state["grid"][1:])), ("mask", (7, 0, None))):
+            with self.subTest(name), self.assertRaisesRegex(ValueError, "damaged pickle"):
+                type(outcome).__new__(type(outcome)).__setstate__({**state, name: value})
+
 
 class ReadTest(harness.TestCase):
     def setUp(self):

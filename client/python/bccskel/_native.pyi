@@ -44,8 +44,6 @@ class Outcome:
     warnings: list[str]
     voxels: Optional[int]
     method: str
-    algorithm_version: str
-    object_points: int
     sha256: str
     def nodes(self) -> dict[str, Any]: ...
     def edges(self) -> dict[str, Any]: ...

@@ -156,7 +156,7 @@ class Skeleton:
         """Where `root` was given, the graph as trees: of components 'roots', of nodes 'parent' (-1
         for none) and 'root_distance', of edges 'proximal' (-1 where one closes a loop),
         'generation' and 'strahler' (NaN where one closes a loop)."""
-        return self._outcome.order()
+        return _fixed(self._outcome.order())
 
     @functools.cached_property
     def certificate(self) -> dict:

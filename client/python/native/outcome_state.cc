@@ -34,17 +34,29 @@ std::shared_ptr<const Volume> VolumeOfState(const py::object& state) {
       Value(DecodeVolume(VolumeEncoding::kBricks, std::string_view(bytes))));
 }
 
-using RootState = std::tuple<int, WorldPoint, uint32_t, std::vector<uint32_t>>;
+[[noreturn]] void Refuse(const char* what) {
+  throw py::value_error(std::string("damaged pickle of a skeleton: ") + what);
+}
+
+template <typename Enum>
+Enum EnumOf(int number, Enum last) {
+  if (number < 0 || number > static_cast<int>(last)) Refuse("an unknown option");
+  return static_cast<Enum>(number);
+}
+
+using RootState = std::tuple<int, WorldPoint, std::vector<uint32_t>>;
 
 py::object StateOfRoot(const std::optional<RootChoice>& root) {
   if (!root.has_value()) return py::none();
-  return py::cast(RootState(static_cast<int>(root->rule), root->point, root->node, root->nodes));
+  return py::cast(RootState(static_cast<int>(root->rule), root->point, root->nodes));
 }
 
-std::optional<RootChoice> RootOfState(const py::object& state) {
+std::optional<RootChoice> RootOfState(const py::object& state, const SkeletonGraph& graph) {
   if (state.is_none()) return std::nullopt;
-  const auto [rule, point, node, nodes] = state.cast<RootState>();
-  return RootChoice{static_cast<RootChoice::Rule>(rule), point, node, nodes};
+  const auto [rule, point, nodes] = state.cast<RootState>();
+  RootChoice root = {EnumOf(rule, RootChoice::Rule::kNodes), point, nodes};
+  if (!CheckRootChoice(root, graph).ok()) Refuse("a root that is no node");
+  return root;
 }
 
 using GridState = std::tuple<int32_t, int32_t, int32_t, std::array<double, 3>,
@@ -60,28 +72,30 @@ py::object StateOfGrid(const std::optional<MaskGrid>& grid) {
 std::optional<MaskGrid> GridOfState(const py::object& state) {
   if (state.is_none()) return std::nullopt;
   const auto [nx, ny, nz, spacing, origin, direction] = state.cast<GridState>();
-  return MaskGrid{nx, ny, nz, {spacing, origin, direction}};
+  const MaskGrid grid = {nx, ny, nz, {spacing, origin, direction}};
+  if (!CheckMaskGrid(grid).ok()) Refuse("its grid");
+  return grid;
 }
 
-// Adjacency, points; of a sampling: weights, points per voxel, and 0, which older versions read.
-using SamplingState = std::tuple<int, double, int>;
+// Adjacency, points; of a sampling: weights, points per voxel.
+using SamplingState = std::tuple<int, double>;
 using MaskState = std::tuple<int, int, std::optional<SamplingState>>;
 
 MaskState StateOfMask(const MaskOptions& mask) {
   std::optional<SamplingState> sampling;
   if (mask.sampling.has_value()) {
-    sampling = {static_cast<int>(mask.sampling->weights), mask.sampling->points_per_voxel, 0};
+    sampling = {static_cast<int>(mask.sampling->weights), mask.sampling->points_per_voxel};
   }
   return {static_cast<int>(mask.adjacency), static_cast<int>(mask.points), sampling};
 }
 
 MaskOptions MaskOfState(const MaskState& state) {
   const auto& [adjacency, points, sampling] = state;
-  MaskOptions mask = {.adjacency = static_cast<MaskAdjacency>(adjacency),
-                      .points = static_cast<VoxelPoints>(points)};
+  MaskOptions mask = {.adjacency = EnumOf(adjacency, MaskAdjacency::k6),
+                      .points = EnumOf(points, VoxelPoints::kSixteen)};
   if (sampling.has_value()) {
-    const auto& [weights, per_voxel, unused] = *sampling;
-    mask.sampling = {static_cast<MaskWeights>(weights), per_voxel};
+    const auto& [weights, per_voxel] = *sampling;
+    mask.sampling = {EnumOf(weights, MaskWeights::kTrilinear), per_voxel};
   }
   return mask;
 }
@@ -99,7 +113,14 @@ py::object StateOfLabel(const std::shared_ptr<const LabeledObject>& label) {
   return py::cast(LabelState(label->label, label->voxels, label->box.low, label->box.high, runs));
 }
 
-std::shared_ptr<const LabeledObject> LabelOfState(const py::object& state) {
+bool IsIn(const VoxelRun& run, const MaskGrid& grid) {
+  return run.z >= 0 && run.z < grid.nz && run.y >= 0 && run.y < grid.ny && run.begin >= 0 &&
+         run.begin <= run.end && run.end <= grid.nx;
+}
+
+// Needs: the grid of the outcome.
+std::shared_ptr<const LabeledObject> LabelOfState(const py::object& state,
+                                                  const std::optional<MaskGrid>& grid) {
   if (state.is_none()) return nullptr;
   const auto [label, voxels, low, high, runs] = state.cast<LabelState>();
   if (runs.ndim() != 2 || runs.shape(1) != 4) {
@@ -112,7 +133,9 @@ std::shared_ptr<const LabeledObject> LabelOfState(const py::object& state) {
   object->runs.resize(static_cast<size_t>(runs.shape(0)));
   const auto rows = runs.unchecked<2>();
   for (py::ssize_t n = 0; n < rows.shape(0); ++n) {
-    object->runs[static_cast<size_t>(n)] = {rows(n, 0), rows(n, 1), rows(n, 2), rows(n, 3)};
+    const VoxelRun run = {rows(n, 0), rows(n, 1), rows(n, 2), rows(n, 3)};
+    if (!grid.has_value() || !IsIn(run, *grid)) Refuse("a label outside of its image");
+    object->runs[static_cast<size_t>(n)] = run;
   }
   return object;
 }
@@ -161,13 +184,13 @@ std::shared_ptr<Outcome> OutcomeOfState(const py::dict& state) {
   auto outcome = std::make_shared<Outcome>();
   outcome->result = Value(client::ResultFromBytes(state["result"].cast<std::string>()));
   outcome->result.certificate.sampled = state["sampled"].cast<bool>();
-  outcome->root = RootOfState(state["root"]);
+  outcome->root = RootOfState(state["root"], outcome->result.graph);
   outcome->warnings = state["warnings"].cast<std::vector<std::string>>();
   outcome->voxels = state["voxels"].cast<uint64_t>();
   outcome->object = VolumeOfState(state["object"]);
   outcome->grid = GridOfState(state["grid"]);
   outcome->mask = MaskOfState(state["mask"].cast<MaskState>());
-  outcome->label = LabelOfState(state["label"]);
+  outcome->label = LabelOfState(state["label"], outcome->grid);
   outcome->read = ReadOfState(state["read"], outcome->result);
   if (outcome->read.has_value()) {
     outcome->document = std::make_shared<const std::string>(state["document"].cast<std::string>());

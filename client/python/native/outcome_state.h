@@ -11,8 +11,8 @@ namespace bccskel::python {
 
 // The content of an outcome as bytes, numbers and texts, for `pickle`.
 pybind11::dict StateOf(const Outcome& outcome);
-// Throws the exception for DATA_LOSS, KeyError or TypeError for a state that StateOf() does not
-// produce.
+// Throws the exception for DATA_LOSS, KeyError, TypeError or ValueError for a state that StateOf()
+// does not produce.
 std::shared_ptr<Outcome> OutcomeOfState(const pybind11::dict& state);
 
 }  // namespace bccskel::python

@@ -390,10 +390,6 @@ void AddSkeletonClass(py::module_& module) {
                              [](const Outcome& o) { return WithOptionNames(o.warnings); })
       .def_property_readonly("voxels", &Outcome::KnownVoxels)
       .def_property_readonly("method", [](const Outcome& o) { return o.result.method; })
-      .def_property_readonly("algorithm_version",
-                             [](const Outcome& o) { return o.result.algorithm_version; })
-      .def_property_readonly("object_points",
-                             [](const Outcome& o) { return o.result.object_points; })
       .def_property_readonly("sha256", [](const Outcome& o) { return o.result.sha256; });
 }
 

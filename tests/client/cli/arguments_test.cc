@@ -121,7 +121,7 @@ TEST(ArgumentsTest, TakesARoot) {
   EXPECT_EQ(root("thickest-node"), RootChoice{RootChoice::Rule::kDeepestNode});
   EXPECT_EQ(root("-1.5,2e1,3"),
             (RootChoice{.rule = RootChoice::Rule::kNearestNode, .point = {-1.5, 20, 3}}));
-  EXPECT_EQ(root("node:12"), (RootChoice{.rule = RootChoice::Rule::kNode, .node = 12}));
+  EXPECT_EQ(root("node:12"), (RootChoice{.rule = RootChoice::Rule::kNodes, .nodes = {12}}));
   EXPECT_EQ(Parse("skeletonize a.off -o a.swc").as<SkeletonizeArguments>().root, std::nullopt);
 }
 

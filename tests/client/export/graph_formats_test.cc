@@ -261,7 +261,8 @@ TEST(VtpTest, SaysHowTheResultWasMade) {
 // The stick from node 0 to node 1 hangs on node 0; the loop at node 1 is cut.
 TEST(GraphFormatsTest, HoldTheOrderOfTheTrees) {
   const SkeletonizeResult result = Prepared();
-  const TreeOrder order = OrderTrees(result.graph, {.rule = RootChoice::Rule::kNode, .node = 1});
+  const TreeOrder order =
+      OrderTrees(result.graph, {.rule = RootChoice::Rule::kNodes, .nodes = {1}});
   const std::string json = JsonText(result, order);
   EXPECT_THAT(json, HasSubstr("\"component\":0,\"root\":1,\"parent\":1,\"root_distance\":"));
   EXPECT_THAT(json, HasSubstr("\"proximal\":1,\"generation\":0,\"strahler\":1}"));

@@ -43,7 +43,7 @@ SkeletonGraph GraphOf(uint32_t nodes, const std::vector<Limb>& limbs) {
   return graph;
 }
 
-RootChoice Node(uint32_t node) { return {.rule = Rule::kNode, .node = node}; }
+RootChoice Node(uint32_t node) { return {.rule = Rule::kNodes, .nodes = {node}}; }
 
 template <typename Row, typename Value>
 std::vector<Value> Column(const std::vector<Row>& rows, Value Row::*value) {
