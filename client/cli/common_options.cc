@@ -162,12 +162,6 @@ void AddOutput(CLI::App& command, std::string& path, const char* what,
       ->option_text("FILE (required)");
 }
 
-void AddVolumeOutput(CLI::App& command, std::string& path) {
-  command.add_option("-o,--output", path, "Volume to write: .exr or .bccb")
-      ->required()
-      ->option_text("FILE (required)");
-}
-
 CLI::Option* AddOutputs(CLI::App& command, std::vector<std::string>& outputs,
                         const std::string& what) {
   return command

@@ -52,8 +52,6 @@ void AddInput(CLI::App& command, const char* name, std::string& path, const char
 // --output: a file whose name ends in one of `endings`.
 void AddOutput(CLI::App& command, std::string& path, const char* what,
                const std::vector<std::string>& endings);
-// --output of a volume; Validate() checks its ending.
-void AddVolumeOutput(CLI::App& command, std::string& path);
 // --output of skeletons, any number of them; `what` describes them, by default all formats.
 CLI::Option* AddOutputs(CLI::App& command, std::vector<std::string>& outputs,
                         const std::string& what = "");

@@ -33,7 +33,7 @@ void AddGenerate(CLI::App& command, GenerateArguments& arguments) {
           "One of " + ShapeNames())
       ->required()
       ->option_text(" ");
-  AddVolumeOutput(command, arguments.output);
+  AddOutput(command, arguments.output, "Volume", {".exr", ".bccb"});
   AddCount(command, "--points", arguments.options.points,
            "Number of points of the object (default 850000)", kMinShapePoints, kMaxShapePoints);
   AddCount(command, "--seed", arguments.options.seed, "Seed of the random parts (default 0)");

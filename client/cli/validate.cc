@@ -28,7 +28,7 @@
 namespace bccskel::cli {
 namespace {
 
-absl::Status CheckVolumeOutput(const std::string& path) {
+absl::Status CheckVolumeName(const std::string& path) {
   const absl::StatusOr<exporting::SkeletonFormat> format = exporting::SkeletonFormatOf(path);
   if (format.ok() && *format == exporting::SkeletonFormat::kVolume) return absl::OkStatus();
   return absl::InvalidArgumentError(path + ": a volume file ends in .exr or .bccb");
@@ -120,12 +120,7 @@ absl::Status Validate(const VoxelizeArguments& arguments) {
   if (!sized && kind.ok() && *kind == InputKind::kMesh) {
     return absl::InvalidArgumentError("voxelize needs --points or --spacing for a mesh");
   }
-  BCCSKEL_RETURN_IF_ERROR(CheckVolumeOutput(arguments.output));
   return CheckObject(arguments.input, arguments.grid, arguments.image);
-}
-
-absl::Status Validate(const GenerateArguments& arguments) {
-  return CheckVolumeOutput(arguments.output);
 }
 
 absl::Status Validate(const ResultArguments& arguments) {
@@ -175,7 +170,7 @@ absl::Status Validate(const FetchArguments& arguments) {
   for (const std::string& output : arguments.outputs) {
     BCCSKEL_RETURN_IF_ERROR(CheckFetch(arguments.object, output));
   }
-  return arguments.object.empty() ? absl::OkStatus() : CheckVolumeOutput(arguments.object);
+  return arguments.object.empty() ? absl::OkStatus() : CheckVolumeName(arguments.object);
 }
 
 absl::Status Validate(const InfoArguments& arguments) {

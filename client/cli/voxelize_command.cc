@@ -81,7 +81,7 @@ std::string SummaryOf(const VoxelizeArguments& arguments, const Voxelized& resul
 
 void AddVoxelize(CLI::App& command, VoxelizeArguments& arguments) {
   AddInput(command, "INPUT", arguments.input, "Mesh or image file");
-  AddVolumeOutput(command, arguments.output);
+  AddOutput(command, arguments.output, "Volume", {".exr", ".bccb"});
   AddGrid(command, arguments.grid);
   AddImage(command, arguments.image);
   AddCommonHere(command, arguments.common);
