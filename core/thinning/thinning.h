@@ -113,7 +113,7 @@ std::vector<int32_t> BirthsOf(const ThinningResult& result);
 
 // Receives the points that were removed while a shell was thinned: once for each shell, in order,
 // even if there are none; and, as shell `last_shell + 1`, those removed after the shells. Called on
-// worker 0 while the others continue, so it should return soon.
+// worker 0 while the others wait, so it should return soon.
 using OnShellPoints = std::function<void(int32_t shell, Volume points)>;
 
 // Parallel thinning with shells (section 5), by the given method and to the given kind of skeleton.
