@@ -28,18 +28,49 @@ void BranchPruner::Run(const OnRemoved& on_removed, TurnedTips* turned) {
       turns_.emplace(*now, end);
       continue;
     }
-    if (turned != nullptr) NoteTurned(branch, *turned);
-    const RemovedBranch removed = RemoveBranch(set_, branch, keep_);
+    const FreeBranch going = LessOfTwins(branch, worth);
+    if (turned != nullptr) NoteTurned(going, *turned);
+    const RemovedBranch removed = RemoveBranch(set_, going, keep_);
     for (LatticePoint p : removed.points) on_removed(p, worth);
     JudgeAround(removed.around);
   }
 }
 
+FreeBranch BranchPruner::LessOfTwins(const FreeBranch& branch, double worth) const {
+  const bool goes_anyway = worth == -std::numeric_limits<double>::infinity();
+  if (rule_ != PruningRule::kSignificance || goes_anyway) return branch;
+  const std::optional<FreeBranch> twin = TwinOf(branch);
+  if (!twin.has_value()) return branch;
+  const double without = LimbWithout(branch, twin->points[0]);
+  return LimbWithout(*twin, branch.points[0]) > without ? *twin : branch;
+}
+
+std::optional<FreeBranch> BranchPruner::TwinOf(const FreeBranch& branch) const {
+  const std::vector<LatticePoint> cluster = ClusterOf(set_, *branch.junction);
+  if (cluster.size() >= kMostClusterPoints) return std::nullopt;
+  const std::set<LatticePoint> sources(cluster.begin(), cluster.end());
+  std::set<LatticePoint> ends;
+  for (LatticePoint p : cluster) FindEndsBeyond(p, sources, ends);
+  ends.erase(branch.points[0]);
+  if (ends.size() != 1) return std::nullopt;
+  FreeBranch twin = BranchFrom(set_, *ends.begin());
+  if (!MayGo(twin) || WorthOf(twin) >= kDefaultSignificance) return std::nullopt;
+  return twin;
+}
+
+double BranchPruner::LimbWithout(const FreeBranch& going, LatticePoint end) const {
+  constexpr double kNone = -std::numeric_limits<double>::infinity();
+  ThinSet rest = ThinSet::Over(set_);
+  RemoveBranch(rest, going, keep_);
+  if (!rest.Contains(end) || !rest.IsEnd(end)) return kNone;
+  const FreeBranch limb = BranchFrom(rest, end);
+  return limb.junction.has_value() ? significance_.Of(rest, limb) : kNone;
+}
+
 void BranchPruner::NoteTurned(const FreeBranch& branch, TurnedTips& turned) const {
   const std::vector<LatticePoint> cluster = ClusterOf(set_, *branch.junction);
   if (cluster.size() >= kMostClusterPoints) return;
-  turned.Note(set_, branch, cluster,
-              [&](const FreeBranch& other) { return WorthOf(other, *other.junction); });
+  turned.Note(set_, branch, cluster, [&](const FreeBranch& other) { return WorthOf(other); });
 }
 
 void BranchPruner::JudgeAll() {
@@ -75,16 +106,16 @@ bool BranchPruner::MayGo(const FreeBranch& branch) const {
 
 std::optional<double> BranchPruner::WorthIfSpurious(const FreeBranch& branch) const {
   if (!MayGo(branch)) return std::nullopt;
-  const double worth = WorthOf(branch, *branch.junction);
+  const double worth = WorthOf(branch);
   return worth < threshold_ ? std::optional(worth) : std::nullopt;
 }
 
-double BranchPruner::WorthOf(const FreeBranch& branch, LatticePoint junction) const {
+double BranchPruner::WorthOf(const FreeBranch& branch) const {
   switch (rule_) {
     case PruningRule::kLength:
-      return LengthTo(branch, junction);
+      return LengthOfBranch(branch);
     case PruningRule::kRelativeLength:
-      return LengthTo(branch, junction) / BallAt(junction);
+      return LengthOfBranch(branch) / BallAt(*branch.junction);
     case PruningRule::kPersistence:
       return PersistenceOf(set_, branch);
     default:
@@ -99,8 +130,8 @@ double BranchPruner::BallAt(LatticePoint junction) const {
   return ball;
 }
 
-double BranchPruner::LengthTo(const FreeBranch& branch, LatticePoint junction) const {
-  double length = set_.Between(branch.points.back(), junction);
+double BranchPruner::LengthOfBranch(const FreeBranch& branch) const {
+  double length = set_.Between(branch.points.back(), *branch.junction);
   for (size_t n = 1; n < branch.points.size(); ++n) {
     length += set_.Between(branch.points[n - 1], branch.points[n]);
   }

@@ -50,6 +50,14 @@ class BranchPruner {
 
  private:
   bool IsEnd(LatticePoint p) const { return set_.Contains(p) && set_.IsEnd(p); }
+  // Where an insignificant limb or the end of one forks into two branches, neither significant by
+  // itself, one of them leads the limb on: that with which the limb is more significant. Returns
+  // the other one; elsewhere `branch`, the next to be removed, of this worth.
+  FreeBranch LessOfTwins(const FreeBranch& branch, double worth) const;
+  // The only other branch with a free end at the junction, if it is insignificant.
+  std::optional<FreeBranch> TwinOf(const FreeBranch& branch) const;
+  // The significance of the limb that ends at `end` if `going` is removed.
+  double LimbWithout(const FreeBranch& going, LatticePoint end) const;
   void NoteTurned(const FreeBranch& branch, TurnedTips& turned) const;
   void JudgeAll();
   void Judge(const FreeBranch& branch);
@@ -59,9 +67,10 @@ class BranchPruner {
 
   bool MayGo(const FreeBranch& branch) const;
   std::optional<double> WorthIfSpurious(const FreeBranch& branch) const;
-  double WorthOf(const FreeBranch& branch, LatticePoint junction) const;
+  // Need: the branch has a junction.
+  double WorthOf(const FreeBranch& branch) const;
   double BallAt(LatticePoint junction) const;
-  double LengthTo(const FreeBranch& branch, LatticePoint junction) const;
+  double LengthOfBranch(const FreeBranch& branch) const;
 
   using Turn = std::pair<double, LatticePoint>;
 
