@@ -22,6 +22,14 @@ constexpr double kOffArc = 0.25;  // largest distance of points from a limb's ar
 constexpr double kOffArcAtRoot = kOffArc / 2;  // the same where the arc begins at the root
 constexpr double kLimbAfterFlat = 0.95;        // least significance; corners of strips reach 0.9
 constexpr double kPointed = 0.7;  // largest radius at the end of a pointed limb, in its root's
+// Of limbs that narrow to a point: the largest half-width in radii (across the curve into the
+// corner of a cube it is 1.5 radii) plus surface steps, and the least depth at which they are
+// compared, in lattice units plus surface steps.
+constexpr double kRoundRadii = 1.3, kRoundSteps = 0.5, kLeastRound = 4, kLeastRoundSteps = 2;
+constexpr double kLongerThanCap = 1.3;  // in the depth where they begin to narrow
+constexpr double kStraight = 0.98, kStraightIfRough = 0.92;
+constexpr size_t kRoundPlaces = 8, kLeastRoundPlaces = 3, kMostWidePlaces = 1;
+constexpr size_t kChord = 4;  // points; shorter ones are steps of the lattice
 
 }  // namespace
 
@@ -239,10 +247,12 @@ size_t TipPlacer::FirstThatShowsWay(size_t n) const {
 }
 
 size_t TipPlacer::GrowAnew(size_t first) {
-  if (!bumps_.IsFirm(path_.back())) return first;
   const size_t straight = FirstThatShowsWay(BestFrom(first, kRidgeSlope));
-  const std::optional<size_t> turned =
-      RidgeEndAside(set_, depth_, {path_, first, path_[straight], limb_radius_});
+  std::optional<size_t> turned = PointedEnd(first, straight);
+  if (!bumps_.IsFirm(path_.back())) return turned.value_or(first);
+  if (!turned.has_value()) {
+    turned = RidgeEndAside(set_, depth_, {path_, first, path_[straight], limb_radius_});
+  }
   CutAfter(turned.value_or(straight));
   first = turned.value_or(first);
   ridge_end_ = path_.back();
@@ -252,6 +262,46 @@ size_t TipPlacer::GrowAnew(size_t first) {
   const double corner = kCornerRadii * set_.RadiusOf(ridge_end_) + kCutMargin;
   if (set_.Between(ridge_end_, path_.back()) <= corner) way_on_ = on;
   return first;
+}
+
+std::optional<size_t> TipPlacer::PointedEnd(size_t first, size_t straight) {
+  const size_t end = path_.size() - 1;
+  size_t best = first;
+  double length = 0, most = depth_.At(path_[first]);
+  for (size_t from = first; from < end; from += kChord) {
+    const size_t n = std::min(from + kChord, end);
+    length += set_.Between(path_[from], path_[n]);
+    const double merit = kTipSlope * length + depth_.At(path_[n]);
+    if (merit < most) continue;
+    best = n;
+    most = merit;
+  }
+  if (best <= straight ||
+      set_.Between(path_[straight], path_[best]) <= kLongerThanCap * depth_.At(path_[straight])) {
+    return std::nullopt;
+  }
+  const Coordinates in = set_.Way(anchor_, path_[straight]);
+  const Coordinates out = set_.Way(path_[straight], path_[best]);
+  const double straight_on = noise_.roughness == 1 ? kStraightIfRough : kStraight;
+  if (Dot(in, out) > straight_on * LengthOf(in) * LengthOf(out)) return std::nullopt;
+  size_t round = 0, wide = 0;
+  for (size_t k = 1; k <= kRoundPlaces; ++k) {
+    const size_t n = straight + (best - straight) * k / kRoundPlaces;
+    if (depth_.At(path_[n]) < kLeastRound + kLeastRoundSteps * noise_.step) continue;
+    ++(IsRoundAt(n) ? round : wide);
+  }
+  const bool is_round = round >= kLeastRoundPlaces && wide <= kMostWidePlaces;
+  return is_round ? std::optional(best) : std::nullopt;
+}
+
+bool TipPlacer::IsRoundAt(size_t n) {
+  const double depth = depth_.At(path_[n]);
+  size_t before = n, after = n;
+  while (before > 0 && set_.Between(path_[before], path_[n]) < depth) --before;
+  while (after + 1 < path_.size() && set_.Between(path_[n], path_[after]) < depth) ++after;
+  const Coordinates way = Unit(set_.Way(path_[before], path_[after]));
+  const double most = kRoundRadii * depth + kRoundSteps * noise_.step;
+  return sections_.Across(PlaceOf(path_[n], scale_), way, depth, 2 * most).half_width <= most;
 }
 
 bool TipPlacer::FollowBend() {

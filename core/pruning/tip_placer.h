@@ -91,6 +91,11 @@ class TipPlacer {
   // point that is certainly on the ridge. Single points do not grow. Returns the position in the
   // path of the first point that may become the tip.
   size_t GrowAnew(size_t first);
+  // Position in the path of the end of a limb that narrows to a point and may bend: as far as
+  // thinning led a curve that is round all around, not into a corner. None if that is hardly beyond
+  // `straight`, up to which the path is certainly on the ridge.
+  std::optional<size_t> PointedEnd(size_t first, size_t straight);
+  bool IsRoundAt(size_t n);
   // A bent limb has turned away from the direction in which it left its anchor. Returns whether it
   // is bent.
   bool FollowBend();

@@ -272,6 +272,23 @@ Sketch Taper(Pen pen, const Values& v) {
   return sketch;
 }
 
+// A bent body that narrows to a point at both ends: radius of its arc, the angle of that.
+Sketch Crescent(Pen pen, const Values& v) {
+  const double r = pen.size;
+  constexpr int kParts = 40;
+  const auto along = [](int n) { return 2.0 * n / kParts - 1; };
+  const auto at = [&](int n) { return InPlane(along(n) * v[1] / 2, v[0] * r); };
+  const auto radius = [&](int n) { return r * std::max(1 - along(n) * along(n), 0.06); };
+  Sketch sketch;
+  for (int n = 0; n < kParts; ++n) {
+    sketch.line.push_back({at(n), at(n + 1), radius(n), radius(n + 1)});
+  }
+  sketch.pieces = sketch.line;
+  sketch.AddTipOf(sketch.line.back(), 2 * r);
+  sketch.AddTipOf(Reversed(sketch.line.front()), 2 * r);
+  return sketch;
+}
+
 // Wide arms in a plane: count, flatness, radii at both ends, length.
 Sketch Star(Pen pen, const Values& v) {
   const double s = pen.size;
@@ -332,6 +349,10 @@ constexpr WildFigure kFigures[] = {
     {"cone", Cone, {3, 0.1, 0}, true},
     {"taper", Taper, {8, 5}},
     {"taper", Taper, {8, 3}, true},
+    {"crescent", Crescent, {3.1, 2.1}},
+    {"crescent", Crescent, {2.1, 3.1}},
+    {"crescent", Crescent, {4, 1.5}, true},
+    {"crescent", Crescent, {2.4, 2.6}, true},
     {"leaf", Leaf, {0.4, 4, 0.1}},
     {"leaf", Leaf, {0.65, 4, 0.1}},
     {"leaf", Leaf, {0.55, 6, 0.15}, true},
