@@ -61,10 +61,9 @@ NotOnPages(T&) -> NotOnPages<T>;  // clang 14 needs the guides
 // A list of the points of the edge that is read, after those of the edges before it. Not on pages.
 template <typename T>
 struct OfPoints {
+  explicit OfPoints(std::vector<T>& list) : to(list) {}
   std::vector<T>& to;
 };
-template <typename T>
-OfPoints(std::vector<T>&) -> OfPoints<T>;
 struct Order {
   std::optional<std::vector<uint32_t>>& roots;
   std::string& rule;
@@ -169,7 +168,7 @@ class Reader {
   template <typename Item>
   void Read(const Place& place, OfPoints<Item>& list) {
     const uint64_t begin = now_->bits;
-    list.to.resize(to_.edges.back().first_point);
+    Fill(list.to, to_.edges.back().first_point);
     ReadItems(place, "a list", [&](const Place& at) { Read(at, list.to.emplace_back()); });
     if (status_.ok()) LeaveOut(begin);
   }
@@ -202,21 +201,24 @@ class Reader {
                Optional("pruning_level", to.pruning_level));
     const size_t end = to_.points.size();
     to.point_count = end - to.first_point;
-    if (to.point_count == 0 || to_.radii.size() != end) {
-      Complain(place, "an edge with points and as many radii");
-    }
-    Align(place, "an edge with as many births as points", to.first_point, to_.births);
-    Align(place, "an edge with as many shifts as points", to.first_point, to_.shifts);
-    Align(place, "an edge with a curve of as many points", to.first_point, to_.curves);
+    const bool has_points = to.point_count > 0 && to_.radii.size() == end;
+    if (!has_points) Complain(place, "an edge with points and as many radii");
+    const auto align = [&](auto& list, std::string_view expected) {
+      if (list.size() > to.first_point && list.size() != end) Complain(place, expected);
+      if (!list.empty()) Fill(list, end);
+    };
+    align(to_.births, "an edge with as many births as points");
+    align(to_.shifts, "an edge with as many shifts as points");
+    align(to_.curves, "an edge with a curve of as many points");
   }
-  // An edge has a list of its points or none, whatever others have.
+  // Where an edge has no list, its points are its curve, and other values are 0.
   template <typename T>
-  void Align(const Place& place, std::string_view expected, size_t first, std::vector<T>& list) {
-    if (list.size() > first && list.size() != to_.points.size()) Complain(place, expected);
-    if (list.empty() || list.size() > first) return;
-    list.resize(to_.points.size());
-    const std::span<const WorldPoint> points = std::span(to_.points).subspan(first);
-    if constexpr (std::is_same_v<T, WorldPoint>) std::ranges::copy(points, &list[first]);
+  void Fill(std::vector<T>& list, size_t size) {
+    const size_t known = std::min(list.size(), size);
+    list.resize(size);
+    if constexpr (std::is_same_v<T, WorldPoint>) {
+      for (size_t n = known; n < size; ++n) list[n] = to_.points[n];
+    }
   }
   void Read(const Place& place, ResultDocument::Sheets& to) {
     ReadObject(place, Required("points", to.points), Required("radii", to.radii),
@@ -352,7 +354,6 @@ class Reader {
         return to_.text->substr(begin.bits, now_->bits - begin.bits);
     }
   }
-
   // The value that ends at the current event and begins at this byte is not on pages.
   void LeaveOut(uint64_t begin) {
     to_.not_on_pages.push_back(std::string_view(*to_.text).substr(begin, now_->bits - begin));

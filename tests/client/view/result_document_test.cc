@@ -107,6 +107,16 @@ TEST(ResultDocumentTest, KnowsWhatPagesHaveInAnotherForm) {
                                             WorldPoint{0, 0, 0}, WorldPoint{9, 9, 9}));
 }
 
+TEST(ResultDocumentTest, EdgesWithoutACurveBesideOthersHaveTheirPoints) {
+  const auto document = ParseResultDocument(
+      SmallWith("\"length\":2}", R"("length":2},{"source":0,"target":0,"points":[[7,7,7]],)"
+                                 R"("radii":[1],"births":[4],"curve":[[8,8,8]],"length":0})"));
+  ASSERT_TRUE(document.ok()) << document.status();
+  EXPECT_THAT(document->curves,
+              ElementsAre(WorldPoint{0, 0, 0}, WorldPoint{1, 1, 1.5}, WorldPoint{8, 8, 8}));
+  EXPECT_THAT(document->births, ElementsAre(0, 0, 4));
+}
+
 TEST(ResultDocumentTest, OptionsKeepTheirOrder) {
   const auto document = ParseResultDocument(
       SmallWith("\"something_new\":[null]",
