@@ -27,7 +27,7 @@ constexpr double kPointed = 0.7;  // largest radius at the end of a pointed limb
 // compared, in lattice units plus surface steps.
 constexpr double kRoundRadii = 1.3, kRoundSteps = 0.5, kLeastRound = 4, kLeastRoundSteps = 2;
 constexpr double kLongerThanCap = 1.3;  // in the depth where they begin to narrow
-constexpr double kStraight = 0.98, kStraightIfRough = 0.92;
+constexpr double kStraight = 0.98, kStraightIfRough = 0.92;  // cosines of 11 and 23 degrees
 constexpr size_t kRoundPlaces = 8, kLeastRoundPlaces = 3, kMostWidePlaces = 1;
 constexpr size_t kChord = 4;  // points; shorter ones are steps of the lattice
 

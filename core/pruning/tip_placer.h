@@ -91,9 +91,10 @@ class TipPlacer {
   // point that is certainly on the ridge. Single points do not grow. Returns the position in the
   // path of the first point that may become the tip.
   size_t GrowAnew(size_t first);
-  // Position in the path of the end of a limb that narrows to a point and may bend: as far as
-  // thinning led a curve that is round all around, not into a corner. None if that is hardly beyond
-  // `straight`, up to which the path is certainly on the ridge.
+  // Position in the path of the end of a limb that bends as it narrows to a point: as far as the
+  // object is round across the path, which then leads into no corner. None for other limbs, and if
+  // that is no farther beyond `straight`, up to which the path is certainly on the ridge, than a
+  // cap is long.
   std::optional<size_t> PointedEnd(size_t first, size_t straight);
   bool IsRoundAt(size_t n);
   // A bent limb has turned away from the direction in which it left its anchor. Returns whether it

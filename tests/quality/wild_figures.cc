@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "tests/quality/wild_growth.h"
@@ -272,6 +273,17 @@ Sketch Taper(Pen pen, const Values& v) {
   return sketch;
 }
 
+// Adds a tube along a curve of so many parts; its ends stick out by `out`.
+void Sweep(Sketch& sketch, int parts, const std::function<Vector(int)>& at,
+           const std::function<double(int)>& radius, double out) {
+  for (int n = 0; n < parts; ++n) {
+    sketch.line.push_back({at(n), at(n + 1), radius(n), radius(n + 1)});
+  }
+  sketch.pieces = sketch.line;
+  sketch.AddTipOf(sketch.line.back(), out);
+  sketch.AddTipOf(Reversed(sketch.line.front()), out);
+}
+
 // A bent body that narrows to a point at both ends: radius of its arc, the angle of that.
 Sketch Crescent(Pen pen, const Values& v) {
   const double r = pen.size;
@@ -280,12 +292,7 @@ Sketch Crescent(Pen pen, const Values& v) {
   const auto at = [&](int n) { return InPlane(along(n) * v[1] / 2, v[0] * r); };
   const auto radius = [&](int n) { return r * std::max(1 - along(n) * along(n), 0.06); };
   Sketch sketch;
-  for (int n = 0; n < kParts; ++n) {
-    sketch.line.push_back({at(n), at(n + 1), radius(n), radius(n + 1)});
-  }
-  sketch.pieces = sketch.line;
-  sketch.AddTipOf(sketch.line.back(), 2 * r);
-  sketch.AddTipOf(Reversed(sketch.line.front()), 2 * r);
+  Sweep(sketch, kParts, at, radius, 2 * r);
   return sketch;
 }
 
@@ -311,12 +318,7 @@ Sketch Neurite(Pen pen, const Values& v) {
   };
   const auto radius = [&](int n) { return r * (1 + v[1] * std::sin(30.0 * n / kParts + c)); };
   Sketch sketch{.rough = v[2] * r, .wavelength = 1.5 * r};
-  for (int n = 0; n < kParts; ++n) {
-    sketch.line.push_back({at(n), at(n + 1), radius(n), radius(n + 1)});
-  }
-  sketch.pieces = sketch.line;
-  sketch.AddTipOf(sketch.line.back(), 6 * r);
-  sketch.AddTipOf(Reversed(sketch.line.front()), 6 * r);
+  Sweep(sketch, kParts, at, radius, 6 * r);
   return sketch;
 }
 
