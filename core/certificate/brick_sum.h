@@ -22,16 +22,11 @@ int64_t SumOverBricks(const exec::Context& context, size_t count, Term term) {
   constexpr size_t kBatch = 128;
   const int workers = context.WorkersFor(count, kBrickSumWork);
   std::vector<int64_t> sums(static_cast<size_t>(workers), 0);
-  exec::Portions portions(count, kBatch);
-  const auto work = [&](int worker) {
-    int64_t sum = 0;
-    for (exec::Share mine = portions.Take(); mine.begin < mine.end && !context.ShouldStop();
-         mine = portions.Take()) {
-      sum += term(worker, mine);
-    }
-    sums[static_cast<size_t>(worker)] = sum;
-  };
-  context.Offer(workers, work);
+  (void)context.ForEachShare(workers, count, kBatch, [&](int worker) {
+    return [&, worker](exec::Share batch) {
+      sums[static_cast<size_t>(worker)] += term(worker, batch);
+    };
+  });
   return std::accumulate(sums.begin(), sums.end(), int64_t{0});
 }
 

@@ -99,13 +99,8 @@ class SectionScan {
   }
 
   void SweepTogether(int workers) const {
-    exec::Portions portions(slabs_.size(), 1);
-    context_.Offer(workers, [&](int) {
-      for (exec::Share next = portions.Take(); next.begin < next.end && !context_.ShouldStop();
-           next = portions.Take()) {
-        Sweep(slabs_[next.begin]);
-      }
-    });
+    (void)context_.ForEach(workers, slabs_.size(), 1,
+                           [&](int) { return [&](size_t n) { Sweep(slabs_[n]); }; });
   }
 
   void Sweep(const BrickSlab& slab) const {

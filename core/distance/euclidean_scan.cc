@@ -105,13 +105,8 @@ class EuclideanScan {
   // stop.
   template <typename Work>
   void Share(const exec::Context& context, size_t count, size_t at_once, Work work) const {
-    exec::Portions portions(count, at_once);
-    context.Offer(context.WorkersFor(object_.brick_count(), kScanWork), [&](int) {
-      for (exec::Share mine = portions.Take(); mine.begin < mine.end; mine = portions.Take()) {
-        if (context.ShouldStop()) return;
-        for (size_t n = mine.begin; n < mine.end; ++n) work(n);
-      }
-    });
+    const int workers = context.WorkersFor(object_.brick_count(), kScanWork);
+    (void)context.ForEach(workers, count, at_once, [&](int) { return std::ref(work); });
   }
 
   float LargestOfStack(BrickStack stack) const {

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/exec/status_macros.h"
 #include "core/lattice/directions.h"
 #include "core/volume/brick_neighbors.h"
 
@@ -253,15 +254,10 @@ absl::StatusOr<std::vector<float>> ExactRadii(const Volume& thin, const ExactRad
   std::vector<float> radii(points.size());
   // In the unit of Context::WorkersFor(). In a Euclidean field radii are only looked up.
   const size_t work = untouched.searches() ? 32 : 1;
-  exec::Portions portions(points.size(), 64);
-  context.Offer(context.WorkersFor(points.size(), work), [&](int) {
-    ExactRadius radius = untouched;
-    for (exec::Share mine = portions.Take(); mine.begin < mine.end; mine = portions.Take()) {
-      if (context.ShouldStop()) return;
-      for (size_t n = mine.begin; n < mine.end; ++n) radii[n] = radius.At(points[n]);
-    }
-  });
-  if (absl::Status stop = context.StopStatus(); !stop.ok()) return stop;
+  const int workers = context.WorkersFor(points.size(), work);
+  BCCSKEL_RETURN_IF_ERROR(context.ForEach(workers, points.size(), 64, [&](int) {
+    return [&, radius = untouched](size_t n) mutable { radii[n] = radius.At(points[n]); };
+  }));
   return radii;
 }
 

@@ -86,19 +86,34 @@ class Context {
     });
   }
 
-  // Calls `work(share)` with shares of up to `at_once` items that together are 0..count-1, on all
-  // usable threads, in any order.
+  // Distributes shares of up to `at_once` items, which together are 0..count-1, among the first
+  // `workers`, in any order. A worker that gets a share calls `make_work(worker)` once, then what
+  // that returned with each of its shares.
   // Errors: those of StopStatus(); shares are then missing.
-  template <typename Work>
-  absl::Status ForEachShare(size_t count, size_t at_once, Work work) const {
+  template <typename MakeWork>
+  absl::Status ForEachShare(int workers, size_t count, size_t at_once, MakeWork make_work) const {
     Portions portions(count, at_once);
-    Offer([&](int /*worker*/) {
-      for (Share mine = portions.Take(); mine.begin < mine.end && !ShouldStop();
-           mine = portions.Take()) {
-        work(mine);
-      }
+    Offer(workers, [&](int worker) {
+      Share mine = portions.Take();
+      if (mine.begin == mine.end || ShouldStop()) return;
+      auto work = make_work(worker);
+      for (; mine.begin < mine.end && !ShouldStop(); mine = portions.Take()) work(mine);
     });
     return StopStatus();
+  }
+  // The same on all usable threads, with one `work` for all of them.
+  template <typename Work>
+  absl::Status ForEachShare(size_t count, size_t at_once, Work work) const {
+    return ForEachShare(usable_threads(), count, at_once, [&](int) { return std::ref(work); });
+  }
+  // The same item by item: what `make_work(worker)` returned is called with each item of a share.
+  template <typename MakeWork>
+  absl::Status ForEach(int workers, size_t count, size_t at_once, MakeWork make_work) const {
+    return ForEachShare(workers, count, at_once, [&](int worker) {
+      return [work = make_work(worker)](Share mine) mutable {
+        for (size_t n = mine.begin; n < mine.end; ++n) work(n);
+      };
+    });
   }
 
   // Offers this thread to more urgent work. Called where ShouldStop() is not called for more than

@@ -317,16 +317,11 @@ void BorderTips::AddBranches(ExactRadius& radius, ThinSet& set, PointsByAxis& ad
   const std::vector<LatticePoint> ends = set.Ends();
   const std::vector<Crossing> crossings = Crossings(set);
   std::vector<std::optional<NewBranch>> branches(crossings.size());
-  exec::Portions portions(crossings.size(), kAtOnce);
-  context.Offer(context.WorkersFor(crossings.size(), kWork), [&](int) {
-    BorderTips own = *this;
-    TrunkArms arms;
-    for (exec::Share mine = portions.Take(); mine.begin < mine.end; mine = portions.Take()) {
-      if (context.ShouldStop()) return;
-      for (size_t n = mine.begin; n < mine.end; ++n) {
-        branches[n] = own.BranchFrom(crossings[n], ends, set, arms);
-      }
-    }
+  const int workers = context.WorkersFor(crossings.size(), kWork);
+  (void)context.ForEach(workers, crossings.size(), kAtOnce, [&](int) {
+    return [&, own = *this, arms = TrunkArms()](size_t n) mutable {
+      branches[n] = own.BranchFrom(crossings[n], ends, set, arms);
+    };
   });
   std::vector<LatticePoint> new_ends;
   for (const std::optional<NewBranch>& branch : branches) {

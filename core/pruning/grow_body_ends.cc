@@ -206,13 +206,11 @@ void GrowBodyEnds(ThinSet& set, const PrunedObject& in, TipDepths& depths,
   const std::vector<LatticePoint> junctions = JunctionsOf(set, significance);
   if (junctions.empty()) return;
   std::vector<std::vector<ThinSet::Change>> grown(junctions.size());
-  exec::Portions portions(junctions.size(), 1);
-  context.Offer(context.WorkersFor(junctions.size(), Significance::kWork), [&](int worker) {
-    Trial trial(worker, set, in, depths, significance, threshold);
-    for (exec::Share mine = portions.Take(); mine.begin < mine.end; mine = portions.Take()) {
-      if (context.ShouldStop()) return;
-      grown[mine.begin] = trial.GrowAt(junctions[mine.begin]);
-    }
+  const int workers = context.WorkersFor(junctions.size(), Significance::kWork);
+  (void)context.ForEach(workers, junctions.size(), 1, [&](int worker) {
+    return [&, trial = Trial(worker, set, in, depths, significance, threshold)](size_t n) mutable {
+      grown[n] = trial.GrowAt(junctions[n]);
+    };
   });
   std::optional<BodyEnds> ends;
   for (size_t n = 0; n < junctions.size(); ++n) {

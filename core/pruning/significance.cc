@@ -165,28 +165,20 @@ double Significance::OfPath(const ThinSet& set, std::array<BranchPath, 2> ways) 
 std::vector<double> Significance::OfAll(const ThinSet& set, std::span<const FreeBranch> branches,
                                         const exec::Context& context) {
   std::vector<double> values(branches.size(), kNone);
-  std::vector<std::optional<Verdict>> verdicts(branches.size());
   if (!balls_.has_value()) balls_.emplace(set, context);
-  exec::Portions portions(branches.size(), 1);
-  const auto measure = [&](Significance& own) {
-    for (exec::Share mine = portions.Take(); mine.begin < mine.end; mine = portions.Take()) {
-      if (context.ShouldStop()) return;
-      const FreeBranch& branch = branches[mine.begin];
-      values[mine.begin] = own.Of(set, branch);
-      if (&own == this) continue;
-      if (const Verdict* found = own.Known(branch); found != nullptr) {
-        verdicts[mine.begin] = *found;
-      }
-    }
-  };
   const int workers = context.WorkersFor(branches.size(), kWork);
   if (workers == 1) {
-    measure(*this);
+    for (size_t n = 0; n < branches.size() && !context.ShouldStop(); ++n) {
+      values[n] = Of(set, branches[n]);
+    }
     return values;
   }
-  context.Offer(workers, [&](int) {
-    Significance own = *this;
-    measure(own);
+  std::vector<std::optional<Verdict>> verdicts(branches.size());
+  (void)context.ForEach(workers, branches.size(), 1, [&](int) {
+    return [&, own = *this](size_t n) mutable {
+      values[n] = own.Of(set, branches[n]);
+      if (const Verdict* found = own.Known(branches[n]); found != nullptr) verdicts[n] = *found;
+    };
   });
   for (size_t n = 0; n < branches.size(); ++n) {
     if (verdicts[n].has_value()) verdicts_.Set(branches[n].points[0], *verdicts[n]);

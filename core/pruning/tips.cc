@@ -62,18 +62,12 @@ absl::StatusOr<PointsByAxis> PlaceTips(ThinSet& set, const PrunedObject& in, Tip
   const TipTask task = {in, keep, noise, turned, BallIndex(set, context)};
   const std::vector<LatticePoint> ends = set.Ends();
   std::vector<TipTrial::Placed> placed(ends.size());
-  exec::Portions portions(1 + ends.size(), 1);
-  context.Offer(context.WorkersFor(1 + ends.size(), Significance::kWork), [&](int worker) {
-    std::optional<TipTrial> trial;
-    for (exec::Share mine = portions.Take(); mine.begin < mine.end; mine = portions.Take()) {
-      if (context.ShouldStop()) return;
-      if (mine.begin == 0) {
-        meanwhile();
-        continue;
-      }
-      if (!trial.has_value()) trial.emplace(worker, set, task, depths);
-      placed[mine.begin - 1] = trial->Place(ends[mine.begin - 1]);
-    }
+  const int workers = context.WorkersFor(1 + ends.size(), Significance::kWork);
+  (void)context.ForEach(workers, 1 + ends.size(), 1, [&](int worker) {
+    return [&, trial = TipTrial(worker, set, task, depths)](size_t n) mutable {
+      if (n == 0) return meanwhile();
+      placed[n - 1] = trial.Place(ends[n - 1]);
+    };
   });
   PointsByAxis at_border;
   PointSet anew;  // the other ends of paths that were led to the border

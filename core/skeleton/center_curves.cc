@@ -148,19 +148,15 @@ absl::Status CenterCurves(const Volume& object, const DistanceField& field,
                           const exec::Context& context, SkeletonGraph& graph) {
   const ExactRadius radius(object, field);
   const int workers = context.WorkersFor(graph.points.size(), kPointWork);
-  exec::Portions portions(graph.points.size(), kPointsAtOnce);
-  context.Offer(workers, [&](int) {
-    DiscCenters centers(object, field, radius);
-    StopPoll poll(context);
-    for (exec::Share mine = portions.Take(); mine.begin < mine.end; mine = portions.Take()) {
-      if (poll.StoppedNow()) return;
+  return context.ForEachShare(workers, graph.points.size(), kPointsAtOnce, [&](int) {
+    return [&, centers = DiscCenters(object, field, radius),
+            poll = StopPoll(context)](exec::Share mine) mutable {
       for (auto edge = FirstEdgeAt(graph, mine.begin);
            edge != graph.edges.end() && edge->first_point < mine.end; ++edge) {
         CenterEdge(centers, *edge, mine, poll, graph);
       }
-    }
+    };
   });
-  return context.StopStatus();
 }
 
 }  // namespace bccskel

@@ -8,6 +8,7 @@
 
 #include "core/distance/exact_radius.h"
 #include "core/distance/places.h"
+#include "core/exec/status_macros.h"
 
 namespace bccskel {
 namespace {
@@ -178,16 +179,13 @@ absl::StatusOr<std::vector<float>> MeasureVoxelRadii(const Volume& object, int32
   std::vector<LatticePoint> points;
   thin.ForEachPoint([&](LatticePoint p) { points.push_back(p); });
   std::vector<float> measured(points.size());
-  exec::Portions portions(points.size(), 64);
   constexpr size_t kWork = 32;  // as for ExactRadii()
-  context.Offer(context.WorkersFor(points.size(), kWork), [&](int) {
-    VoxelRadii radii(object, voxel_units, search);
-    for (exec::Share mine = portions.Take(); mine.begin < mine.end; mine = portions.Take()) {
-      if (context.ShouldStop()) return;
-      for (size_t n = mine.begin; n < mine.end; ++n) measured[n] = radii.At(points[n], exact[n]);
-    }
-  });
-  if (absl::Status stop = context.StopStatus(); !stop.ok()) return stop;
+  const int workers = context.WorkersFor(points.size(), kWork);
+  BCCSKEL_RETURN_IF_ERROR(context.ForEach(workers, points.size(), 64, [&](int) {
+    return [&, radii = VoxelRadii(object, voxel_units, search)](size_t n) mutable {
+      measured[n] = radii.At(points[n], exact[n]);
+    };
+  }));
   return measured;
 }
 

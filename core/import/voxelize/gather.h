@@ -18,13 +18,8 @@ template <typename T, typename MakeWorker>
 std::vector<T> Gather(size_t items, size_t at_once, const exec::Context& context,
                       MakeWorker make_worker) {
   std::vector<std::vector<T>> found(items / at_once + 1);
-  exec::Portions portions(items, at_once);
-  context.Offer([&](int) {
-    auto worker = make_worker();
-    for (exec::Share mine = portions.Take(); mine.begin < mine.end; mine = portions.Take()) {
-      if (context.ShouldStop()) return;
-      for (size_t n = mine.begin; n < mine.end; ++n) worker(n, found[mine.begin / at_once]);
-    }
+  (void)context.ForEach(context.usable_threads(), items, at_once, [&](int) {
+    return [&, worker = make_worker()](size_t n) mutable { worker(n, found[n / at_once]); };
   });
   std::vector<T> all;
   for (std::vector<T>& part : found) {
