@@ -30,13 +30,13 @@ const char* NameOf(JobState state) {
 
 template <typename Attempt>
 auto DurableClient::Retry(const Calls& calls, Attempt attempt)
-    -> decltype(attempt(DurableStub::Deadline())) {
+    -> decltype(attempt(DurableStub::Limits())) {
   return RetryLoop(policy_, pause_, calls.timeout, calls.stop).Run(std::move(attempt));
 }
 
 absl::StatusOr<std::string> DurableClient::Upload(const EncodedVolume& volume, const Calls& calls) {
   absl::StatusOr<std::string> found =
-      Retry(calls, [&](auto deadline) { return stub_->FindVolume(volume, deadline); });
+      Retry(calls, [&](const auto& limits) { return stub_->FindVolume(volume, limits); });
   if (!found.ok() || !found->empty()) return found;
   return Send("uploads/" + RandomId(), DurableStub::Begun::kNo, volume, calls);
 }
@@ -49,9 +49,9 @@ absl::StatusOr<std::string> DurableClient::FinishUpload(const std::string& uploa
 
 absl::StatusOr<std::string> DurableClient::Send(const std::string& upload, DurableStub::Begun begun,
                                                 const EncodedVolume& volume, const Calls& calls) {
-  return Retry(calls, [&](auto deadline) -> absl::StatusOr<std::string> {
+  return Retry(calls, [&](const auto& limits) -> absl::StatusOr<std::string> {
     const auto known = std::exchange(begun, DurableStub::Begun::kMaybe);
-    absl::StatusOr<std::string> sent = stub_->Upload(upload, known, volume, calls.stop, deadline);
+    absl::StatusOr<std::string> sent = stub_->Upload(upload, known, volume, limits);
     if (!absl::IsOutOfRange(sent.status())) return sent;
     // The server has a different number of bytes than it reported: those of a broken stream arrived
     // late.
@@ -62,25 +62,25 @@ absl::StatusOr<std::string> DurableClient::Send(const std::string& upload, Durab
 absl::StatusOr<DurableJob> DurableClient::CreateJob(NewJob job, const Calls& calls) {
   // So that a retry does not create a second job.
   if (job.request_id.empty()) job.request_id = RandomId();
-  return Retry(calls, [&](auto deadline) { return stub_->CreateJob(job, deadline); });
+  return Retry(calls, [&](const auto& limits) { return stub_->CreateJob(job, limits); });
 }
 
 absl::StatusOr<DurableJob> DurableClient::GetJob(const std::string& job, const Calls& calls) {
-  return Retry(calls, [&](auto deadline) { return stub_->GetJob(job, deadline); });
+  return Retry(calls, [&](const auto& limits) { return stub_->GetJob(job, limits); });
 }
 
 absl::StatusOr<JobPage> DurableClient::ListJobs(int page_size, const std::string& page_token,
                                                 const Calls& calls) {
   return Retry(calls,
-               [&](auto deadline) { return stub_->ListJobs(page_size, page_token, deadline); });
+               [&](const auto& limits) { return stub_->ListJobs(page_size, page_token, limits); });
 }
 
 absl::StatusOr<DurableJob> DurableClient::CancelJob(const std::string& job, const Calls& calls) {
-  return Retry(calls, [&](auto deadline) { return stub_->CancelJob(job, deadline); });
+  return Retry(calls, [&](const auto& limits) { return stub_->CancelJob(job, limits); });
 }
 
 absl::Status DurableClient::DeleteJob(const std::string& job, const Calls& calls) {
-  return Retry(calls, [&](auto deadline) { return stub_->DeleteJob(job, deadline); });
+  return Retry(calls, [&](const auto& limits) { return stub_->DeleteJob(job, limits); });
 }
 
 absl::StatusOr<JobState> DurableClient::Watch(const std::string& job,
@@ -95,8 +95,8 @@ absl::StatusOr<JobState> DurableClient::Watch(const std::string& job,
     loop.Progressed();
     if (consume) consume(event);
   };
-  BCCSKEL_RETURN_IF_ERROR(loop.Run(
-      [&](auto deadline) { return stub_->WatchJob(job, known, take, calls.stop, deadline); }));
+  BCCSKEL_RETURN_IF_ERROR(
+      loop.Run([&](const auto& limits) { return stub_->WatchJob(job, known, take, limits); }));
   if (HasEnded(state)) return state;
   return absl::DataLossError("the watch ended before " + job + " did");
 }
@@ -119,9 +119,9 @@ absl::Status DurableClient::Await(const std::string& job,
 absl::StatusOr<SkeletonizeResult> DurableClient::Fetch(const std::string& job, const Calls& calls) {
   RetryLoop loop(policy_, pause_, calls.timeout, calls.stop);
   SkeletonReading reading;
-  BCCSKEL_RETURN_IF_ERROR(loop.Run([&](auto deadline) {
+  BCCSKEL_RETURN_IF_ERROR(loop.Run([&](const auto& limits) {
     const uint32_t before = reading.pieces();
-    absl::Status status = stub_->ReadSkeleton(job, reading, calls.stop, deadline);
+    absl::Status status = stub_->ReadSkeleton(job, reading, limits);
     if (reading.pieces() > before) loop.Progressed();
     return status;
   }));

@@ -23,32 +23,30 @@ class SkeletonReading;
 // Threads: safe.
 class DurableStub {
  public:
-  using Deadline = RetryLoop::Clock::time_point;
+  using Limits = RetryLoop::Limits;
   using EventConsumer = std::function<void(const JobEvent&)>;
   virtual ~DurableStub() = default;
 
   // The volume's name on the server; empty if the server does not have it.
   virtual absl::StatusOr<std::string> FindVolume(const EncodedVolume& volume,
-                                                 Deadline deadline) = 0;
+                                                 const Limits& limits) = 0;
   // Sends the bytes of the upload that the server lacks and returns the volume's name. Begun::kNo
   // saves the query for a new upload.
   enum class Begun { kMaybe, kNo };
   virtual absl::StatusOr<std::string> Upload(const std::string& upload, Begun begun,
-                                             const EncodedVolume& volume,
-                                             const std::stop_token& stop, Deadline deadline) = 0;
-  virtual absl::StatusOr<DurableJob> CreateJob(const NewJob& job, Deadline deadline) = 0;
-  virtual absl::StatusOr<DurableJob> GetJob(const std::string& job, Deadline deadline) = 0;
+                                             const EncodedVolume& volume, const Limits& limits) = 0;
+  virtual absl::StatusOr<DurableJob> CreateJob(const NewJob& job, const Limits& limits) = 0;
+  virtual absl::StatusOr<DurableJob> GetJob(const std::string& job, const Limits& limits) = 0;
   virtual absl::StatusOr<JobPage> ListJobs(int page_size, const std::string& page_token,
-                                           Deadline deadline) = 0;
-  virtual absl::StatusOr<DurableJob> CancelJob(const std::string& job, Deadline deadline) = 0;
-  virtual absl::Status DeleteJob(const std::string& job, Deadline deadline) = 0;
+                                           const Limits& limits) = 0;
+  virtual absl::StatusOr<DurableJob> CancelJob(const std::string& job, const Limits& limits) = 0;
+  virtual absl::Status DeleteJob(const std::string& job, const Limits& limits) = 0;
   // OK after the event that reports the end of the job.
   virtual absl::Status WatchJob(const std::string& job, uint64_t after_sequence,
-                                const EventConsumer& consume, const std::stop_token& stop,
-                                Deadline deadline) = 0;
+                                const EventConsumer& consume, const Limits& limits) = 0;
   // Resumes at the end of `reading`.
   virtual absl::Status ReadSkeleton(const std::string& job, SkeletonReading& reading,
-                                    const std::stop_token& stop, Deadline deadline) = 0;
+                                    const Limits& limits) = 0;
 };
 
 // Jobs that outlive their caller and the server's process. Each call retries where that can help,
@@ -99,7 +97,7 @@ class DurableClient {
   absl::StatusOr<std::string> Send(const std::string& upload, DurableStub::Begun begun,
                                    const EncodedVolume& volume, const Calls& calls);
   template <typename Attempt>
-  auto Retry(const Calls& calls, Attempt attempt) -> decltype(attempt(DurableStub::Deadline()));
+  auto Retry(const Calls& calls, Attempt attempt) -> decltype(attempt(DurableStub::Limits()));
 
   const std::unique_ptr<DurableStub> stub_;
   const RetryPolicy policy_;

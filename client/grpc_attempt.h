@@ -3,27 +3,28 @@
 
 #include <grpcpp/grpcpp.h>
 
-#include <chrono>
 #include <stop_token>
 #include <utility>
 
 #include "absl/status/status.h"
 #include "client/channel.h"
+#include "client/grpc_status.h"
+#include "client/retry_loop.h"
 
 namespace bccskel::client {
 
-// Makes one attempt at a call on `channel`; `stop` cancels it.
-// Errors: CANCELLED if the stop was requested before; those of `call`.
+// Makes one attempt at a call on `channel`.
+// Errors: CANCELLED only if the stop was requested or the server says so in its details; those of
+//         `call`.
 template <typename Call>
-auto Attempt(grpc::Channel& channel, const std::stop_token& stop,
-             std::chrono::system_clock::time_point deadline, Call call)
+auto Attempt(grpc::Channel& channel, const RetryLoop::Limits& limits, Call call)
     -> decltype(call(std::declval<grpc::ClientContext&>())) {
-  if (stop.stop_requested()) return absl::CancelledError("cancelled by the caller");
-  AwaitReconnection(channel, deadline);
+  if (limits.stop.stop_requested()) return absl::CancelledError("cancelled by the caller");
+  AwaitReconnection(channel, limits.deadline);
   grpc::ClientContext context;
-  context.set_deadline(deadline);
-  const std::stop_callback cancel(stop, [&context] { context.TryCancel(); });
-  return call(context);
+  context.set_deadline(limits.deadline);
+  const std::stop_callback cancel(limits.stop, [&context] { context.TryCancel(); });
+  return WithoutForeignCancel(call(context), limits.stop);
 }
 
 }  // namespace bccskel::client

@@ -72,66 +72,64 @@ class GrpcDurableStub final : public DurableStub {
         volumes_(v1::VolumeService::NewStub(channel)),
         jobs_(v1::JobService::NewStub(channel)) {}
 
-  absl::StatusOr<std::string> FindVolume(const EncodedVolume& volume, Deadline deadline) override {
+  absl::StatusOr<std::string> FindVolume(const EncodedVolume& volume,
+                                         const Limits& limits) override {
     const Sha256Digest digest = Sha256Of(volume.bytes);
     v1::FindMissingVolumesRequest request;
     v1::VolumeKey& key = *request.add_volumes();
     *key.mutable_declaration() = DeclarationOf(volume);
     key.set_blob_sha256(digest.bytes.data(), digest.bytes.size());
     BCCSKEL_ASSIGN_OR_RETURN(const v1::FindMissingVolumesResponse response,
-                             Ask(*volumes_, &Volumes::FindMissingVolumes, request, deadline));
+                             Ask(*volumes_, &Volumes::FindMissingVolumes, request, limits));
     if (response.volumes_size() == 1) return response.volumes(0);
     return absl::DataLossError("the server's answer is for a different number of volumes");
   }
 
   absl::StatusOr<std::string> Upload(const std::string& upload, Begun begun,
-                                     const EncodedVolume& volume, const std::stop_token& stop,
-                                     Deadline deadline) override {
+                                     const EncodedVolume& volume, const Limits& limits) override {
     uint64_t committed = 0;
     if (begun == Begun::kMaybe) {
-      BCCSKEL_ASSIGN_OR_RETURN(committed, CommittedSize(upload, deadline));
+      BCCSKEL_ASSIGN_OR_RETURN(committed, CommittedSize(upload, limits));
     }
-    return Try(stop, deadline, [&](grpc::ClientContext& context) {
+    return Attempt(*channel_, limits, [&](grpc::ClientContext& context) {
       return Send(context, upload, volume, committed);
     });
   }
 
-  absl::StatusOr<DurableJob> CreateJob(const NewJob& job, Deadline deadline) override {
-    return JobIn(Ask(*jobs_, &Jobs::CreateJob, ToMessage(job), deadline));
+  absl::StatusOr<DurableJob> CreateJob(const NewJob& job, const Limits& limits) override {
+    return JobIn(Ask(*jobs_, &Jobs::CreateJob, ToMessage(job), limits));
   }
 
-  absl::StatusOr<DurableJob> GetJob(const std::string& job, Deadline deadline) override {
-    return JobIn(Ask(*jobs_, &Jobs::GetJob, RequestAbout<v1::GetJobRequest>(job), deadline));
+  absl::StatusOr<DurableJob> GetJob(const std::string& job, const Limits& limits) override {
+    return JobIn(Ask(*jobs_, &Jobs::GetJob, RequestAbout<v1::GetJobRequest>(job), limits));
   }
 
   absl::StatusOr<JobPage> ListJobs(int page_size, const std::string& page_token,
-                                   Deadline deadline) override {
+                                   const Limits& limits) override {
     v1::ListJobsRequest request;
     request.set_page_size(page_size);
     request.set_page_token(page_token);
     BCCSKEL_ASSIGN_OR_RETURN(const v1::ListJobsResponse response,
-                             Ask(*jobs_, &Jobs::ListJobs, request, deadline));
+                             Ask(*jobs_, &Jobs::ListJobs, request, limits));
     JobPage page;
     for (const v1::Job& job : response.jobs()) page.jobs.push_back(FromMessage(job));
     page.next_token = response.next_page_token();
     return page;
   }
 
-  absl::StatusOr<DurableJob> CancelJob(const std::string& job, Deadline deadline) override {
-    return JobIn(Ask(*jobs_, &Jobs::CancelJob, RequestAbout<v1::CancelJobRequest>(job), deadline));
+  absl::StatusOr<DurableJob> CancelJob(const std::string& job, const Limits& limits) override {
+    return JobIn(Ask(*jobs_, &Jobs::CancelJob, RequestAbout<v1::CancelJobRequest>(job), limits));
   }
 
-  absl::Status DeleteJob(const std::string& job, Deadline deadline) override {
-    return Ask(*jobs_, &Jobs::DeleteJob, RequestAbout<v1::DeleteJobRequest>(job), deadline)
-        .status();
+  absl::Status DeleteJob(const std::string& job, const Limits& limits) override {
+    return Ask(*jobs_, &Jobs::DeleteJob, RequestAbout<v1::DeleteJobRequest>(job), limits).status();
   }
 
   absl::Status WatchJob(const std::string& job, uint64_t after_sequence,
-                        const EventConsumer& consume, const std::stop_token& stop,
-                        Deadline deadline) override {
+                        const EventConsumer& consume, const Limits& limits) override {
     auto request = RequestAbout<v1::WatchJobRequest>(job);
     request.set_after_sequence(after_sequence);
-    return Try(stop, deadline, [&](grpc::ClientContext& context) {
+    return Attempt(*channel_, limits, [&](grpc::ClientContext& context) {
       const auto stream = jobs_->WatchJob(&context, request);
       v1::WatchJobResponse response;
       while (stream->Read(&response)) {
@@ -142,10 +140,10 @@ class GrpcDurableStub final : public DurableStub {
   }
 
   absl::Status ReadSkeleton(const std::string& job, SkeletonReading& reading,
-                            const std::stop_token& stop, Deadline deadline) override {
+                            const Limits& limits) override {
     auto request = RequestAbout<v1::ReadSkeletonRequest>(job);
     request.set_piece_index(reading.pieces());
-    return Try(stop, deadline, [&](grpc::ClientContext& context) {
+    return Attempt(*channel_, limits, [&](grpc::ClientContext& context) {
       const auto stream = jobs_->ReadSkeleton(&context, request);
       v1::ReadSkeletonResponse piece;
       absl::Status taken;
@@ -157,29 +155,25 @@ class GrpcDurableStub final : public DurableStub {
   }
 
  private:
-  template <typename Do>
-  auto Try(const std::stop_token& stop, Deadline deadline, Do call)
-      -> decltype(call(std::declval<grpc::ClientContext&>())) {
-    return WithoutForeignCancel(Attempt(*channel_, stop, deadline, std::move(call)), stop);
-  }
   // A call with one request and one response.
   template <typename Stub, typename Request, typename Response>
   absl::StatusOr<Response> Ask(Stub& stub,
                                grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&,
                                                             Response*),
-                               const Request& request, Deadline deadline) {
-    return Try({}, deadline, [&](grpc::ClientContext& context) -> absl::StatusOr<Response> {
-      Response response;
-      BCCSKEL_RETURN_IF_ERROR(FromGrpcStatus((stub.*method)(&context, request, &response)));
-      return response;
-    });
+                               const Request& request, const Limits& limits) {
+    return Attempt(
+        *channel_, limits, [&](grpc::ClientContext& context) -> absl::StatusOr<Response> {
+          Response response;
+          BCCSKEL_RETURN_IF_ERROR(FromGrpcStatus((stub.*method)(&context, request, &response)));
+          return response;
+        });
   }
 
   // 0 for an upload that the server does not know.
-  absl::StatusOr<uint64_t> CommittedSize(const std::string& upload, Deadline deadline) {
+  absl::StatusOr<uint64_t> CommittedSize(const std::string& upload, const Limits& limits) {
     v1::GetUploadStatusRequest request;
     request.set_upload(upload);
-    const auto response = Ask(*volumes_, &Volumes::GetUploadStatus, request, deadline);
+    const auto response = Ask(*volumes_, &Volumes::GetUploadStatus, request, limits);
     if (absl::IsNotFound(response.status())) return 0;
     if (!response.ok()) return response.status();
     return response->upload().committed_size();

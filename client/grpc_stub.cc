@@ -13,14 +13,13 @@
 #include "client/grpc_status.h"
 #include "client/job_messages.h"
 #include "client/labels_call.h"
+#include "client/skeleton_reading.h"
 #include "client/skeletonize_client.h"
 #include "client/upload_call.h"
 #include "core/exec/status_macros.h"
-#include "core/io/volume_decoder.h"
 #include "proto/wire/options.h"
 #include "proto/wire/result.h"
 #include "proto/wire/shell_points.h"
-#include "proto/wire/skeleton_chunks.h"
 
 // The only file in which the client's calls use gRPC's channels.
 
@@ -47,10 +46,11 @@ class SkeletonizeCall final : private UploadCall<v1::SkeletonizeRequest, v1::Ske
 
   absl::StatusOr<SkeletonizeResult> Run(const EncodedVolume& volume) {
     BCCSKEL_RETURN_IF_ERROR(Converse(ConfigRequest(volume, options_), volume.bytes));
-    if (!summary_.has_value())
-      return absl::DataLossError("the server ended the call without a summary");
-    TellTimes();
-    return Assemble();
+    if (reading_.summary().has_value()) TellTimes(*reading_.summary());
+    if (options_.thin_volume == ThinVolume::kReturn && !reading_.has_thin_volume()) {
+      return absl::DataLossError("the thinned volume is missing");
+    }
+    return std::move(reading_).Finish();
   }
 
   using UploadCall::accepted;
@@ -65,12 +65,11 @@ class SkeletonizeCall final : private UploadCall<v1::SkeletonizeRequest, v1::Ske
         return TakeShellPoints(response.shell_points());
       case v1::SkeletonizeResponse::kSkeletonChunk:
         if (!first_chunk_at_.has_value()) first_chunk_at_ = Clock::now();
-        return assembler_.Add(response.skeleton_chunk());
+        return reading_.Add(response.skeleton_chunk());
       case v1::SkeletonizeResponse::kThinVolumeChunk:
-        return TakeThinVolume(response.thin_volume_chunk());
+        return reading_.Add(response.thin_volume_chunk());
       case v1::SkeletonizeResponse::kSummary:
-        summary_ = std::move(*response.mutable_summary());
-        return absl::OkStatus();
+        return reading_.Add(std::move(*response.mutable_summary()));
       case v1::SkeletonizeResponse::kAccepted:
         return absl::DataLossError("the server accepted the job twice");
       case v1::SkeletonizeResponse::RESPONSE_NOT_SET:
@@ -85,17 +84,9 @@ class SkeletonizeCall final : private UploadCall<v1::SkeletonizeRequest, v1::Ske
     return absl::OkStatus();
   }
 
-  absl::Status TakeThinVolume(const v1::ThinVolumeChunk& chunk) {
-    if (chunk.offset() != thin_bytes_.size()) {
-      return absl::DataLossError("a piece of the thinned volume is missing");
-    }
-    thin_bytes_ += chunk.data();
-    return absl::OkStatus();
-  }
-
-  void TellTimes() const {
+  void TellTimes(const v1::SkeletonSummary& summary) const {
     if (!options_.on_times) return;
-    const wire::JobFacts facts = wire::FactsOf(*summary_);
+    const wire::JobFacts facts = wire::FactsOf(summary);
     const Clock::time_point now = Clock::now();
     options_.on_times({.upload = UploadTime(),
                        .queue = facts.queued,
@@ -103,23 +94,8 @@ class SkeletonizeCall final : private UploadCall<v1::SkeletonizeRequest, v1::Ske
                        .download = now - first_chunk_at_.value_or(now)});
   }
 
-  absl::StatusOr<SkeletonizeResult> Assemble() {
-    BCCSKEL_ASSIGN_OR_RETURN(SkeletonizeResult result, std::move(assembler_).Finish(*summary_));
-    if (options_.thin_volume == ThinVolume::kReturn) {
-      absl::StatusOr<Volume> thin = DecodeVolume(VolumeEncoding::kBricks, thin_bytes_);
-      if (!thin.ok()) {
-        return absl::DataLossError("the thinned volume is damaged: " +
-                                   std::string(thin.status().message()));
-      }
-      result.thin = *std::move(thin);
-    }
-    return result;
-  }
-
   const CallOptions& options_;
-  wire::SkeletonAssembler assembler_;
-  std::string thin_bytes_;
-  std::optional<v1::SkeletonSummary> summary_;
+  SkeletonReading reading_;
   std::optional<Clock::time_point> first_chunk_at_;
 };
 
@@ -134,24 +110,22 @@ class GrpcStub : public Stub {
                                                 const CallOptions& options,
                                                 Clock::time_point deadline) override {
     AcceptedCall accepted;
-    auto result = Attempt(*channel_, options.stop, deadline, [&](grpc::ClientContext& context) {
+    auto result = Attempt(*channel_, {options.stop, deadline}, [&](grpc::ClientContext& context) {
       const auto stream = skeletonization_->Skeletonize(&context);
       SkeletonizeCall call(context, *stream, options);
       auto one_stream = call.Run(volume);
       accepted = call.accepted();
       return one_stream;
     });
-    if (result.ok()) return result;
-    const absl::Status error = WithoutForeignCancel(result.status(), options.stop);
-    if (accepted.job.empty()) return error;
-    return AfterStream(error, accepted, volume, options, deadline);
+    if (result.ok() || accepted.job.empty()) return result;
+    return AfterStream(result.status(), accepted, volume, options, deadline);
   }
 
   absl::StatusOr<LabelsReport> SkeletonizeLabels(const EncodedLabels& volume,
                                                  const LabelsCallOptions& options,
                                                  const LabelConsumer& consume,
                                                  Clock::time_point deadline) override {
-    return Attempt(*channel_, options.stop, deadline, [&](grpc::ClientContext& context) {
+    return Attempt(*channel_, {options.stop, deadline}, [&](grpc::ClientContext& context) {
       const auto stream = skeletonization_->SkeletonizeLabels(&context);
       return LabelsCall(context, *stream, options, consume).Run(volume);
     });
@@ -159,7 +133,7 @@ class GrpcStub : public Stub {
 
   absl::StatusOr<ServerDescription> Describe(Clock::time_point deadline) override {
     v1::GetCapabilitiesResponse response;
-    BCCSKEL_RETURN_IF_ERROR(Attempt(*channel_, {}, deadline, [&](grpc::ClientContext& context) {
+    BCCSKEL_RETURN_IF_ERROR(Attempt(*channel_, {{}, deadline}, [&](grpc::ClientContext& context) {
       return FromGrpcStatus(server_->GetCapabilities(&context, {}, &response));
     }));
     return ServerDescription{response.server_version(), response.algorithm_version()};

@@ -33,8 +33,10 @@ JobState StateOf(v1::JobState state) {
 }
 
 Time TimeOf(const google::protobuf::Timestamp& message) {
+  constexpr int64_t kMostSeconds = 9'000'000'000;  // nanoseconds of more do not fit 64 bits
   const auto since =
-      std::chrono::seconds(message.seconds()) + std::chrono::nanoseconds(message.nanos());
+      std::chrono::seconds(std::clamp(message.seconds(), -kMostSeconds, kMostSeconds)) +
+      std::chrono::nanoseconds(message.nanos());
   return Time(std::chrono::duration_cast<Time::duration>(since));
 }
 

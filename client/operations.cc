@@ -7,6 +7,7 @@
 
 #include "bccskel/v1/admin_service.grpc.pb.h"
 #include "client/channel.h"
+#include "client/grpc_attempt.h"
 #include "client/grpc_status.h"
 #include "core/exec/status_macros.h"
 
@@ -15,8 +16,8 @@ namespace {
 
 using std::chrono::milliseconds;
 
-void SetDeadline(grpc::ClientContext& context, milliseconds timeout) {
-  context.set_deadline(std::chrono::system_clock::now() + timeout);
+RetryLoop::Limits Within(milliseconds timeout, const std::stop_token& stop) {
+  return {stop, std::chrono::system_clock::now() + timeout};
 }
 
 std::chrono::nanoseconds TimeOf(const google::protobuf::Duration& message) {
@@ -88,9 +89,10 @@ ServerStatus StatusFromMessage(const v1::GetServerStatusResponse& message) {
 
 class Operations::Stubs {
  public:
-  explicit Stubs(const std::shared_ptr<grpc::Channel>& channel)
-      : health(channel), admin(v1::AdminService::NewStub(channel)) {}
+  explicit Stubs(const std::shared_ptr<grpc::Channel>& opened)
+      : channel(opened), health(channel), admin(v1::AdminService::NewStub(channel)) {}
 
+  std::shared_ptr<grpc::Channel> channel;
   grpc::GenericStub health;
   std::unique_ptr<v1::AdminService::StubInterface> admin;
 };
@@ -103,30 +105,33 @@ absl::StatusOr<std::unique_ptr<Operations>> Operations::Create(const Endpoint& e
   return std::unique_ptr<Operations>(new Operations(std::make_unique<Stubs>(channel)));
 }
 
-absl::Status Operations::CheckHealth(const std::string& service, milliseconds timeout) {
+absl::Status Operations::CheckHealth(const std::string& service, milliseconds timeout,
+                                     const std::stop_token& stop) {
   constexpr size_t kLongestName = 127;  // longer names would need two bytes for their size
   if (service.size() > kLongestName) return absl::NotFoundError("no service has such a long name");
-  grpc::ClientContext context;
-  SetDeadline(context, timeout);
   grpc::ByteBuffer response;
-  const grpc::Status status = Call(stubs_->health, "/grpc.health.v1.Health/Check", context,
-                                   HealthRequest(service), response);
-  if (!status.ok()) return FromGrpcStatus(status);
+  BCCSKEL_RETURN_IF_ERROR(
+      Attempt(*stubs_->channel, Within(timeout, stop), [&](grpc::ClientContext& context) {
+        return FromGrpcStatus(Call(stubs_->health, "/grpc.health.v1.Health/Check", context,
+                                   HealthRequest(service), response));
+      }));
   if (IsServing(response)) return absl::OkStatus();
   return absl::UnavailableError("accepts no calls now (NOT_SERVING)");
 }
 
-absl::StatusOr<ServerStatus> Operations::GetStatus(milliseconds timeout) {
-  grpc::ClientContext context;
-  SetDeadline(context, timeout);
+absl::StatusOr<ServerStatus> Operations::GetStatus(milliseconds timeout,
+                                                   const std::stop_token& stop) {
   v1::GetServerStatusResponse response;
-  const grpc::Status status = stubs_->admin->GetServerStatus(&context, {}, &response);
-  if (status.error_code() == grpc::StatusCode::UNIMPLEMENTED) {
+  const absl::Status status =
+      Attempt(*stubs_->channel, Within(timeout, stop), [&](grpc::ClientContext& context) {
+        return FromGrpcStatus(stubs_->admin->GetServerStatus(&context, {}, &response));
+      });
+  if (absl::IsUnimplemented(status)) {
     return absl::UnimplementedError(
         "accepts no admin calls here: they are at the address that the server was given as "
         "--admin-listen");
   }
-  if (!status.ok()) return FromGrpcStatus(status);
+  if (!status.ok()) return status;
   return StatusFromMessage(response);
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 
 #include "absl/status/statusor.h"
@@ -55,11 +56,13 @@ class Operations {
   // (grpc.health.v1).
   // Errors: UNAVAILABLE if it does not or cannot be reached; NOT_FOUND for an unknown service;
   //         DEADLINE_EXCEEDED.
-  absl::Status CheckHealth(const std::string& service, std::chrono::milliseconds timeout);
+  absl::Status CheckHealth(const std::string& service, std::chrono::milliseconds timeout,
+                           const std::stop_token& stop = {});
 
   // Errors: the server's; PERMISSION_DENIED for a token that is not an admin's; UNIMPLEMENTED if
   //         admin calls have another address.
-  absl::StatusOr<ServerStatus> GetStatus(std::chrono::milliseconds timeout);
+  absl::StatusOr<ServerStatus> GetStatus(std::chrono::milliseconds timeout,
+                                         const std::stop_token& stop = {});
 
  private:
   class Stubs;  // keeps gRPC out of this header

@@ -16,6 +16,11 @@ namespace bccskel::client {
 // Threads: one at a time.
 class RetryLoop {
  public:
+  // What ends an attempt.
+  struct Limits {
+    std::stop_token stop;
+    std::chrono::system_clock::time_point deadline;
+  };
   using Clock = std::chrono::system_clock;
 
   // Needs: `pause` outlives the loop.
@@ -27,11 +32,11 @@ class RetryLoop {
         deadline_(Clock::now() + timeout),
         pauses_(policy) {}
 
-  // Calls `attempt(deadline)` until it succeeds or is not to be repeated; returns its last status.
+  // Calls `attempt(limits)` until it succeeds or is not to be repeated; returns its last status.
   template <typename Attempt>
-  auto Run(Attempt attempt) -> decltype(attempt(Clock::time_point())) {
+  auto Run(Attempt attempt) -> decltype(attempt(Limits())) {
     while (true) {
-      auto result = attempt(deadline_);
+      auto result = attempt(Limits{stop_, deadline_});
       if (result.ok()) return result;
       if (auto end = EndAfter(StatusOf(result)); end.has_value()) return *std::move(end);
     }

@@ -25,6 +25,8 @@ class SkeletonReading {
 
   // The number of pieces so far, which is the index of the next one.
   uint32_t pieces() const { return pieces_; }
+  bool has_thin_volume() const { return !thin_bytes_.empty(); }
+  const std::optional<v1::SkeletonSummary>& summary() const { return summary_; }
 
   // Errors: DATA_LOSS if the summary is missing or contradicts the result.
   absl::StatusOr<SkeletonizeResult> Finish() &&;

@@ -9,8 +9,8 @@ absl::StatusOr<SkeletonizeResult> SkeletonizeClient::Skeletonize(const Volume& o
                                                                  const CallOptions& options) {
   BCCSKEL_ASSIGN_OR_RETURN(const EncodedVolume encoded,
                            EncodeForSending(object, BestEncodingOf(object), options.stop));
-  return RetryLoop(policy_, pause_, options.timeout, options.stop).Run([&](auto deadline) {
-    return stub_->Skeletonize(encoded, options, deadline);
+  return RetryLoop(policy_, pause_, options.timeout, options.stop).Run([&](const auto& limits) {
+    return stub_->Skeletonize(encoded, options, limits.deadline);
   });
 }
 
@@ -24,14 +24,14 @@ absl::StatusOr<LabelsReport> SkeletonizeClient::SkeletonizeLabels(const LabelVol
     loop.Stop();
     return consume(std::move(skeleton));
   };
-  return loop.Run([&](auto deadline) {
-    return stub_->SkeletonizeLabels(encoded, options, consume_once, deadline);
+  return loop.Run([&](const auto& limits) {
+    return stub_->SkeletonizeLabels(encoded, options, consume_once, limits.deadline);
   });
 }
 
 absl::StatusOr<ServerDescription> SkeletonizeClient::Describe(std::chrono::milliseconds timeout) {
-  return RetryLoop(policy_, pause_, timeout, {}).Run([&](auto deadline) {
-    return stub_->Describe(deadline);
+  return RetryLoop(policy_, pause_, timeout, {}).Run([&](const auto& limits) {
+    return stub_->Describe(limits.deadline);
   });
 }
 

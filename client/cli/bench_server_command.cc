@@ -95,8 +95,11 @@ class Client {
     }
   }
 
+  // At least once.
   void CallUntil(Clock::time_point end) {
-    while (share_.status.ok() && Clock::now() < end) share_.status = CallOnce();
+    do {
+      share_.status = CallOnce();
+    } while (share_.status.ok() && Clock::now() < end);
   }
 
   Share& share() { return share_; }

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 
 #include "absl/strings/match.h"
 #include "absl/strings/str_join.h"
@@ -13,6 +11,7 @@
 #include "client/cli/thinning_options.h"
 #include "client/export/skeleton_file.h"
 #include "core/exec/status_macros.h"
+#include "core/import/mesh/file_bytes.h"
 #include "core/import/shapes/shapes.h"
 #include "core/pipeline/option_words.h"
 
@@ -23,10 +22,9 @@ constexpr char kTokenVariable[] = "BCCSKEL_TOKEN_FILE";
 
 // The text of the file; empty if the path is.
 absl::StatusOr<std::string> ReadText(const std::string& path) {
+  constexpr uint64_t kMostBytes = 1 << 20;
   if (path.empty()) return std::string();
-  std::ifstream file(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file.is_open() || file.bad()) return absl::NotFoundError(path + ": cannot be read");
+  BCCSKEL_ASSIGN_OR_RETURN(std::string text, ReadFileBytes(path, kMostBytes));
   // An empty file of authorities would turn TLS off.
   if (text.empty()) return absl::InvalidArgumentError(path + ": is empty");
   return text;

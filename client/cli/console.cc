@@ -102,8 +102,6 @@ std::string_view ProgramName() { return program_name; }
 
 void Warn(std::string_view message) { PrintLine("warning", message); }
 
-void Note(std::string_view message) { PrintLine("note", message); }
-
 ExitCode Fail(const absl::Status& error, std::string_view hint) {
   const ExitCode code = FailWith(ExitCodeOf(error), error);
   if (!hint.empty()) PrintLine("hint", hint);

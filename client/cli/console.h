@@ -50,7 +50,6 @@ void SetProgramName(std::string_view name);
 std::string_view ProgramName();
 
 void Warn(std::string_view message);
-void Note(std::string_view message);
 
 // Prints the error and the hint, if any, and returns the exit code. Takes CANCELLED as an
 // interruption; only FailOnServer() takes it as a cancelled job.

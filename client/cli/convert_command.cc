@@ -110,13 +110,10 @@ void AddConvert(CLI::App& command, ConvertArguments& arguments) {
 }
 
 ExitCode Run(const ConvertArguments& arguments, const std::stop_token& stop) {
-  const auto ends_in_json = [](const std::string& path) {
-    return exporting::SkeletonFormatOf(path).value() == exporting::SkeletonFormat::kJson;
-  };
-  if (arguments.root.has_value() && std::ranges::any_of(arguments.outputs, ends_in_json)) {
+  if (arguments.root.has_value() && std::ranges::any_of(arguments.outputs, HoldsDocument)) {
     return FailWith(ExitCode::kUsage,
-                    absl::InvalidArgumentError(
-                        "--root orders the other formats; a .json file stays as the result is"));
+                    absl::InvalidArgumentError("--root orders the other formats; .json, .svg, .png "
+                                               "and .html show the result as it is"));
   }
   const ProgressBar bar(ProgressStyle::kAuto);
   bar.Begin("reading", arguments.result);

@@ -160,7 +160,7 @@ ExitCode Run(const DeleteArguments& arguments, const std::stop_token& stop) {
   const absl::Status deleted = Delete(arguments.job, stop);
   if (!deleted.ok()) return FailOnServer(arguments.job.server, deleted);
   const bool json = arguments.job.common.summary == SummaryStyle::kJson;
-  return Print(json ? "{\"deleted\":\"" + arguments.job.job + "\"}\n"
+  return Print(json ? "{\"deleted\":" + JsonString(arguments.job.job) + "}\n"
                     : arguments.job.job + " deleted\n");
 }
 

@@ -229,10 +229,14 @@ void WarnOfAbsent(const LabelsArguments& arguments, const CollectedLabels& label
     if (!wanted.contains(label - 1) && !wanted.contains(label + 1)) absent.insert(label);
   }
   for (const LabeledObject& object : labels.objects.objects) absent.erase(object.label);
-  if (absent.empty() || labels.left_out > 0) return;
+  if (absent.size() <= labels.left_out) return;
+  const std::string fewer =
+      labels.left_out > 0
+          ? absl::StrFormat("fewer than %d voxels (--min-voxels) have", arguments.min_voxels)
+          : "no voxel has";
   const auto end =
       std::next(absent.begin(), static_cast<ptrdiff_t>(std::min(kShown, absent.size())));
-  Warn(arguments.input + ": no voxel has the label " + absl::StrJoin(absent.begin(), end, ", ") +
+  Warn(arguments.input + ": " + fewer + " the label " + absl::StrJoin(absent.begin(), end, ", ") +
        (absent.size() > kShown ? ", ..." : ""));
 }
 

@@ -11,10 +11,10 @@
 namespace bccskel::cli {
 namespace {
 
-absl::Status Probe(const ProbeArguments& arguments) {
+absl::Status Probe(const ProbeArguments& arguments, const std::stop_token& stop) {
   BCCSKEL_ASSIGN_OR_RETURN(const client::Endpoint endpoint, EndpointOf(arguments.server));
   BCCSKEL_ASSIGN_OR_RETURN(const auto operations, client::Operations::Create(endpoint));
-  absl::Status health = operations->CheckHealth(arguments.service, arguments.timeout);
+  absl::Status health = operations->CheckHealth(arguments.service, arguments.timeout, stop);
   if (!absl::IsNotFound(health)) return health;
   return absl::NotFoundError("it has no service " + arguments.service +
                              "; without --service, probe asks for the whole server");
@@ -43,8 +43,8 @@ void AddProbe(CLI::App& command, ProbeArguments& arguments) {
   AddJson(command, arguments.common);
 }
 
-ExitCode Run(const ProbeArguments& arguments, const std::stop_token&) {
-  const absl::Status status = Probe(arguments);
+ExitCode Run(const ProbeArguments& arguments, const std::stop_token& stop) {
+  const absl::Status status = Probe(arguments, stop);
   return status.ok() ? Print(Summary(arguments)) : FailOnServer(arguments.server, status);
 }
 

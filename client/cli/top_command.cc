@@ -170,7 +170,7 @@ ExitCode Run(const TopArguments& arguments, const std::stop_token& stop) {
   if (!operations.ok()) return FailOnServer(arguments.server, operations.status());
   std::optional<client::ServerStatus> before;
   while (true) {
-    const absl::StatusOr<client::ServerStatus> status = (*operations)->GetStatus(kPatience);
+    const absl::StatusOr<client::ServerStatus> status = (*operations)->GetStatus(kPatience, stop);
     if (!status.ok()) return FailOnServer(arguments.server, status.status());
     std::optional<TopRates> rates;
     if (before.has_value()) rates = RatesBetween(*before, *status);

@@ -140,7 +140,7 @@ class Composer {
   std::map<uint64_t, Segment> segments_;
 };
 
-// Files that appear in a folder together, or not at all: a writer may fail or be stopped.
+// Files that appear in a folder only when all are written: a writer may fail or be stopped.
 class FolderFiles {
  public:
   explicit FolderFiles(std::string folder)

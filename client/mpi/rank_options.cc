@@ -23,6 +23,10 @@ void AddShape(CLI::App& app, RankOptions& options) {
 
 // The name of the shape takes the place of the input.
 absl::Status NameShape(std::vector<std::string>& words, Shape shape) {
+  if (words.empty()) {
+    return absl::InvalidArgumentError(
+        "the command is missing: bccskel-mpi skeletonize --generate SHAPE -o OUTPUT");
+  }
   if (words.size() > 1 && !words[1].starts_with('-')) {
     return absl::InvalidArgumentError("--generate SHAPE takes the place of INPUT: omit " +
                                       words[1]);

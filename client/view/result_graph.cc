@@ -140,11 +140,4 @@ absl::StatusOr<ResultGraph> ResultGraphOf(const ResultDocument& document,
   return result;
 }
 
-absl::StatusOr<ResultGraph> ReadResultGraph(const std::string& path, const std::stop_token& stop) {
-  BCCSKEL_ASSIGN_OR_RETURN(const ResultDocument document, ReadResultDocument(path, stop));
-  absl::StatusOr<ResultGraph> result = ResultGraphOf(document, stop);
-  if (result.ok()) return result;
-  return absl::Status(result.status().code(), absl::StrCat(path, ": ", result.status().message()));
-}
-
 }  // namespace bccskel::view

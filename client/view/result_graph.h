@@ -18,14 +18,10 @@ struct ResultGraph : ResultFacts {
   std::optional<RootChoice> root;  // of a result with an order
 };
 
-// Errors: INVALID_ARGUMENT as ReadResultGraph(); CANCELLED after a stop request.
+// Errors: INVALID_ARGUMENT for a result without placement, from older versions, and for positions
+//         that are not on its lattice; CANCELLED after a stop request.
 absl::StatusOr<ResultGraph> ResultGraphOf(const ResultDocument& document,
                                           const std::stop_token& stop = {});
-
-// Errors: those of ReadResultDocument(); INVALID_ARGUMENT for a result without placement, from
-//         older versions, and for positions that are not on its lattice.
-absl::StatusOr<ResultGraph> ReadResultGraph(const std::string& path,
-                                            const std::stop_token& stop = {});
 
 }  // namespace bccskel::view
 

@@ -12,10 +12,6 @@ v1::LabelProgress ToMessage(const LabelProgress& progress, std::chrono::nanoseco
   return message;
 }
 
-LabelProgress FromMessage(const v1::LabelProgress& message) {
-  return {.done = message.done(), .total = message.total()};
-}
-
 v1::LabelType LabelTypeOf(int label_bytes) {
   for (const auto type : {v1::LABEL_TYPE_UINT8, v1::LABEL_TYPE_UINT16, v1::LABEL_TYPE_UINT32,
                           v1::LABEL_TYPE_UINT64}) {

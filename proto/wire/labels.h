@@ -13,13 +13,10 @@ namespace bccskel::wire {
 struct LabelProgress {
   uint64_t done = 0;
   uint64_t total = 0;
-
-  friend bool operator==(const LabelProgress&, const LabelProgress&) = default;
 };
 
 // `elapsed` is the time since the job's computation began.
 v1::LabelProgress ToMessage(const LabelProgress& progress, std::chrono::nanoseconds elapsed);
-LabelProgress FromMessage(const v1::LabelProgress& message);
 
 // The type of labels of 1, 2, 4 or 8 bytes; UNSPECIFIED for other sizes.
 v1::LabelType LabelTypeOf(int label_bytes);

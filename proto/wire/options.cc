@@ -14,6 +14,9 @@ namespace {
 
 // Of several enumerators with one meaning, messages are given the first.
 
+// Server and client hold them in memory with each job.
+constexpr int kMostKeptPoints = 16384;
+
 constexpr std::pair<v1::StubblePolicy, StubblePolicy> kStubblePolicies[] = {
     {v1::STUBBLE_POLICY_KEEP_TWO, StubblePolicy::kKeepTwo},
     {v1::STUBBLE_POLICY_UNSPECIFIED, StubblePolicy::kKeepTwo},
@@ -157,6 +160,10 @@ absl::StatusOr<std::vector<LatticePoint>> FromMessage(const v1::LatticePoints& m
     return InvalidField(
         field, absl::StrCat("columns of ", message.x_size(), ", ", message.y_size(), " and ",
                             message.z_size(), " rows, must have equal lengths"));
+  }
+  if (message.x_size() > kMostKeptPoints) {
+    return InvalidField(field,
+                        absl::StrCat(message.x_size(), " points, the limit is ", kMostKeptPoints));
   }
   std::vector<LatticePoint> points;
   points.reserve(static_cast<size_t>(message.x_size()));

@@ -13,7 +13,7 @@ v1::SkeletonizeOptions ToMessage(const SkeletonizeOptions& options);
 
 // `field` is the message's path in its request, for the error's BadRequest.
 // Errors: INVALID_ARGUMENT for an enumerator that this version does not know, for columns of
-//         different lengths, and for values that CheckThinningOptions() refuses.
+//         different lengths, and for values that CheckSkeletonizeOptions() refuses.
 absl::StatusOr<SkeletonizeOptions> FromMessage(const v1::SkeletonizeOptions& message,
                                                const std::string& field);
 

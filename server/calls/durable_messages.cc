@@ -171,7 +171,7 @@ absl::StatusOr<std::vector<StoredKey>> KeysOf(const v1::FindMissingVolumesReques
           absl::StrCat(key.blob_sha256().size(), " bytes, must be ", kBlobDigestBytes));
     }
     keys.push_back(
-        {key.declaration().SerializeAsString(), absl::BytesToHexString(key.blob_sha256())});
+        {DeclarationBytes(key.declaration()), absl::BytesToHexString(key.blob_sha256())});
   }
   return keys;
 }

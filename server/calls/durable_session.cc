@@ -56,7 +56,7 @@ class DurableSession final : public SkeletonizeSession,
     BCCSKEL_ASSIGN_OR_RETURN(const std::string options,
                              OptionsBytes(config.options(), config.thin_volume_return()));
     NewUpload upload;
-    upload.declaration = config.volume().SerializeAsString();
+    upload.declaration = DeclarationBytes(config.volume());
     upload.then_job = {
         .options = options, .threads = config.threads(), .trace = call_->facts().trace};
     durable_jobs_.CreateUpload(

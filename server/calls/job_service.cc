@@ -60,7 +60,10 @@ class JobService final : public v1::JobService::CallbackService {
         *context, gate_.EnterDurable(*context, kListJobs), std::string(),
         [&](const DurableCall&) { return QueryOf(*request); }, &DurableJobs::ListJobs,
         Answer([response](const JobPage& page) {
-          for (const JobInfo& job : page.jobs) *response->add_jobs() = ToMessage(job);
+          for (const JobInfo& job : page.jobs) {
+            v1::Job& message = *response->add_jobs() = ToMessage(job);
+            message.mutable_options()->clear_keep();
+          }
           response->set_next_page_token(page.next_token);
         }));
   }

@@ -203,6 +203,11 @@ absl::StatusOr<LabelVolumeHeader> HeaderOf(const v1::LabelVolumeDeclaration& vol
 
 }  // namespace
 
+std::string DeclarationBytes(v1::VolumeDeclaration volume) {
+  volume.DiscardUnknownFields();
+  return volume.SerializeAsString();
+}
+
 absl::Status CheckThreads(int32_t threads, const std::string& field) {
   if (threads >= 0) return absl::OkStatus();
   return InvalidField(field, absl::StrCat(threads, ", must be at least 0"));

@@ -30,6 +30,9 @@ absl::StatusOr<JobRequest> JobRequestOf(const v1::SkeletonizeConfig& config,
 absl::StatusOr<LabelsRequest> JobRequestOf(const v1::SkeletonizeLabelsConfig& config,
                                            const VolumeLimits& limits);
 
+// What is stored of a declaration: its known fields.
+std::string DeclarationBytes(v1::VolumeDeclaration volume);
+
 // Checks the number of threads in this field of a request. Errors: INVALID_ARGUMENT.
 absl::Status CheckThreads(int32_t threads, const std::string& field);
 

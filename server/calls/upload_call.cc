@@ -100,7 +100,7 @@ class UploadCall final : public UploadBase, public UploadWriters::Writer {
     BCCSKEL_RETURN_IF_ERROR(JobRequestOf(whole, limits_.volume).status());
     BCCSKEL_RETURN_IF_ERROR(limits_.CheckVolumeBytes(config.volume().size_bytes()));
     upload_ = config.upload();
-    declaration_ = config.volume().SerializeAsString();
+    declaration_ = DeclarationBytes(config.volume());
     {
       std::lock_guard lock(mutex_);
       subject_ = upload_;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <future>
+#include <set>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "core/digest/random_id.h"
@@ -239,6 +241,7 @@ void DurableJobs::Apply(const Erased& erased) {
   for (const ResultRow& row : erased.results) RemoveResult(row, blobs_, quota_);
   // Other servers may store the same bytes at any time outside a transaction; in a fleet
   // RemoveDeleted() therefore deletes these files.
+  std::set<std::pair<std::string, std::string>> removed;  // several volumes may have the same bytes
   for (const VolumeRow& row : shared_ ? std::vector<VolumeRow>() : erased.blobs) {
     // The same bytes may have been stored again in the meantime.
     const auto others = loop_.store().FindVolumesOf(row.tenant, row.blob_digest);
@@ -247,6 +250,7 @@ void DurableJobs::Apply(const Erased& erased) {
         })) {
       continue;
     }
+    if (!removed.emplace(row.tenant, row.blob_digest).second) continue;
     RemoveFile(blobs_.PathOfBlob(row.tenant, row.blob_digest)).IgnoreError();
     quota_.GiveBack(row.tenant, row.size_bytes);
   }

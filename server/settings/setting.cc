@@ -169,7 +169,7 @@ Setting AddressesSetting(std::string name, std::vector<std::string>& target,
     const auto quote = [](std::string* out, const std::string& text) { out->append(Shown(text)); };
     return absl::StrCat("[", absl::StrJoin(target, ", ", quote), "]");
   };
-  return {std::move(name), "ADDRESS", std::move(description), set, show};
+  return {std::move(name), "ADDRESS", std::move(description), set, show, Setting::Values::kList};
 }
 
 }  // namespace bccskel::server

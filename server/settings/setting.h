@@ -21,6 +21,7 @@ struct Setting {
   std::function<absl::Status(const std::vector<std::string>&)> set;
   // The value as in a file: 3 or "text" or ["a", "b"].
   std::function<std::string()> show;
+  enum class Values { kOne, kList } values = Values::kOne;
 };
 
 // Each sets `target`, which must outlive the setting.

@@ -97,7 +97,9 @@ GivenValues ReadEnvironment(const std::vector<Setting>& settings,
   for (const Setting& setting : settings) {
     const char* const value = variable(VariableOf(setting.name).c_str());
     if (value == nullptr || *value == '\0') continue;
-    given[setting.name] = absl::StrSplit(value, ',');
+    given[setting.name] = setting.values == Setting::Values::kList
+                              ? absl::StrSplit(value, ',')
+                              : std::vector<std::string>{value};
   }
   return given;
 }

@@ -17,8 +17,6 @@ namespace bccskel::server {
 //   8 bytes of magic; records (kind: 1 byte, length: 4, bytes); positions of the records: 8 each;
 //   position of those: 8; number of records: 8. Numbers are little-endian.
 // Threads: one at a time.
-
-// Threads: one at a time.
 class ResultWriter {
  public:
   // Errors of all: RESOURCE_EXHAUSTED when the disk is full; INTERNAL.

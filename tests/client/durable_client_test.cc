@@ -49,35 +49,40 @@ class ScriptedStub : public DurableStub {
  public:
   ScriptedStub(Script script, Asked& asked) : script_(std::move(script)), asked_(asked) {}
 
-  absl::StatusOr<std::string> FindVolume(const EncodedVolume&, Deadline) override {
+  absl::StatusOr<std::string> FindVolume(const EncodedVolume&, const Limits&) override {
     return script_.found;
   }
   absl::StatusOr<std::string> Upload(const std::string& upload, Begun begun, const EncodedVolume&,
-                                     const std::stop_token&, Deadline) override {
+                                     const Limits&) override {
     asked_.uploads.push_back(upload);
     asked_.begun.push_back(begun);
     const absl::Status status = Next();
     if (!status.ok()) return status;
     return "volumes/1";
   }
-  absl::StatusOr<DurableJob> CreateJob(const NewJob& job, Deadline) override {
+  absl::StatusOr<DurableJob> CreateJob(const NewJob& job, const Limits&) override {
     asked_.request_ids.push_back(job.request_id);
     return SomeJob();
   }
-  absl::StatusOr<DurableJob> GetJob(const std::string&, Deadline) override { return SomeJob(); }
-  absl::StatusOr<JobPage> ListJobs(int, const std::string&, Deadline) override { return JobPage(); }
-  absl::StatusOr<DurableJob> CancelJob(const std::string&, Deadline) override { return SomeJob(); }
-  absl::Status DeleteJob(const std::string&, Deadline) override { return Next(); }
+  absl::StatusOr<DurableJob> GetJob(const std::string&, const Limits&) override {
+    return SomeJob();
+  }
+  absl::StatusOr<JobPage> ListJobs(int, const std::string&, const Limits&) override {
+    return JobPage();
+  }
+  absl::StatusOr<DurableJob> CancelJob(const std::string&, const Limits&) override {
+    return SomeJob();
+  }
+  absl::Status DeleteJob(const std::string&, const Limits&) override { return Next(); }
   absl::Status WatchJob(const std::string&, uint64_t after_sequence, const EventConsumer& consume,
-                        const std::stop_token&, Deadline) override {
+                        const Limits&) override {
     asked_.watched_after.push_back(after_sequence);
     const WatchAttempt attempt = std::move(script_.watches.front());
     script_.watches.pop_front();
     for (const JobEvent& event : attempt.events) consume(event);
     return attempt.status;
   }
-  absl::Status ReadSkeleton(const std::string&, SkeletonReading& reading, const std::stop_token&,
-                            Deadline) override;
+  absl::Status ReadSkeleton(const std::string&, SkeletonReading& reading, const Limits&) override;
 
  private:
   absl::Status Next() {
@@ -103,7 +108,7 @@ absl::Status AddPiece(const v1::SkeletonizeResponse& piece, SkeletonReading& rea
 }
 
 absl::Status ScriptedStub::ReadSkeleton(const std::string&, SkeletonReading& reading,
-                                        const std::stop_token&, Deadline) {
+                                        const Limits&) {
   asked_.read_from.push_back(reading.pieces());
   const bool breaks = !script_.pieces_a_read.empty();
   size_t end = script_.result.size();

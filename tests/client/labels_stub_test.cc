@@ -70,6 +70,19 @@ TEST(LabelsStub, TakesWhatAnHonestServerSends) {
   EXPECT_EQ(report->labels, 2u);
 }
 
+TEST(LabelsStub, ReportsACallThatTheServerCancelsAsUnavailable) {
+  const FakeServer server([](FakeServer::LabelsStream&) {
+    return grpc::Status(grpc::StatusCode::CANCELLED, "about to stop");
+  });
+  EncodedLabels labels;
+  labels.bytes = "x";
+  const auto report = MakeGrpcStub(server.address())
+                          ->SkeletonizeLabels(
+                              labels, {}, [](LabelSkeleton&&) { return absl::OkStatus(); },
+                              Stub::Clock::now() + std::chrono::minutes(2));
+  EXPECT_TRUE(absl::IsUnavailable(report.status())) << report.status();
+}
+
 // Each damage must be noticed; the name says what a user would otherwise get.
 struct Damage {
   const char* name;

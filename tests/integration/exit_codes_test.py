@@ -5,6 +5,7 @@ import os
 import pathlib
 import signal
 import subprocess
+import threading
 import unittest
 from concurrent import futures
 
@@ -200,6 +201,10 @@ class ExitCodesTest(harness.TestCase):
         for text, message in (("", "ca.pem: is empty"), ("text", "authorities is not PEM")):
             self.fail_with(3, message, *words, self.write("ca.pem", text))
 
+    def test_3_for_a_folder_in_place_of_a_token(self):
+        self.fail_with(3, "is a folder", "probe", "--server", "localhost:1", "--token-file",
+                       self.folder)
+
     def test_130_and_143_cancel_the_job_on_the_server(self):
         volume = self.long_job()
         for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
@@ -229,6 +234,33 @@ class ExitCodesTest(harness.TestCase):
         harness.interrupt(client)
         client.communicate(timeout=300)
         self.assertEqual(client.returncode, 130)
+
+    def test_130_while_a_server_does_not_answer(self):
+        calls = threading.Semaphore(0)
+
+        def answer_late(context):
+            calls.release()
+            ended = threading.Event()
+            context.add_callback(ended.set)
+            ended.wait(60)
+
+        class Late(grpc.GenericRpcHandler):
+            def service(self, details):
+                return grpc.unary_unary_rpc_method_handler(
+                    lambda request, context: answer_late(context))
+
+        server = grpc.server(futures.ThreadPoolExecutor(4), handlers=(Late(),))
+        port = server.add_insecure_port("127.0.0.1:0")
+        server.start()
+        self.addCleanup(server.stop, None)
+        for words in (("probe", "--timeout", 300), ("jobs",), ("cancel", "jobs/x"),
+                      ("top", "--once")):
+            with self.subTest(words):
+                client = self.start(*words, "--server", f"127.0.0.1:{port}")
+                self.assertTrue(calls.acquire(timeout=60))
+                client.send_signal(signal.SIGINT)
+                _, error = client.communicate(timeout=30)
+                self.assertEqual(client.returncode, 130, error)
 
     def test_a_closed_pipe_does_not_kill(self):
         reader, writer = os.pipe()

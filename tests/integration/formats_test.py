@@ -321,9 +321,10 @@ class FormatsTest(harness.TestCase):
         refused("preparing[0] is not a step", lambda d: d.update(preparing=[{"step": "x"}]))
         self.fail_with(2, "convert writes .json", "convert", self.folders / "tree" / "s.json",
                        "-o", self.path("x.exr"))
-        self.fail_with(2, "--root orders the other formats", "convert",
-                       self.folders / "tree" / "s.json", "--root", "thickest-node",
-                       "-o", self.path("x.json"))
+        for ending in ("json", "svg", "html"):
+            self.fail_with(2, "--root orders the other formats", "convert",
+                           self.folders / "tree" / "s.json", "--root", "thickest-node",
+                           "-o", self.path(f"x.{ending}"))
 
     def test_a_result_without_its_object_becomes_a_picture_and_itself(self):
         for shape in SHAPES:

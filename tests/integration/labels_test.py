@@ -240,6 +240,11 @@ class LabelsTest(harness.TestCase):
         words = ("labels", self.image, "--local", "-o", self.path("a.csv"), "--labels")
         self.assertIn("no voxel has the label 9, 70\n", harness.bccskel(*words, "7,70,9").stderr)
         self.assertNotIn("no voxel", harness.bccskel(*words, "7-9").stderr)
+        few = numpy.full((4, 4, 4), 7, "u1")
+        few[0, 0, 0] = 10
+        numpy.save(self.image, few)
+        fewer = "fewer than 2 voxels (--min-voxels) have the label 10, 70\n"
+        self.assertIn(fewer, harness.bccskel(*words, "7,10,70", "--min-voxels", 2).stderr)
 
     def test_wrong_wishes_are_told(self):
         for words, code, message in (

@@ -93,6 +93,8 @@ class ArgumentsTest(harness.TestCase):
             self.assertEqual(list(bccskel.skeletonize_labels(image, labels=[7, 9, 70])), [7])
         with self.assertWarnsRegex(UserWarning, "^labels without voxels: 9$"):
             bccskel.skeletonize_labels(image, label=[7, 9])
+        with self.assertWarnsRegex(UserWarning, "^labels without voxels: 9$"):
+            bccskel.skeletonize_labels(image, labels={7, 9})
 
     def test_labels_that_are_all_too_small_are_told(self):
         image = MASK.astype("u1") * 7

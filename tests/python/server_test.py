@@ -160,6 +160,14 @@ class RefusalsTest(harness.TestCase):
             bccskel.Client(tls=self.path("none.pem"))
         with self.assertRaisesRegex(ValueError, "tls must be"):
             bccskel.Client(tls=("a", "b"))
+        with open(self.path("empty.pem"), "wb"), \
+                self.assertRaisesRegex(ValueError, "empty.pem: is empty$"):
+            bccskel.Client("example.org:1", tls=self.path("empty.pem"))
+
+    def test_timeouts(self):
+        for timeout in (0, -5, float("nan"), 1e300, "5"):
+            with self.assertRaisesRegex(ValueError, "timeout must be a positive number"):
+                bccskel.Client("127.0.0.1:1").describe(timeout=timeout)
 
 
 if __name__ == "__main__":

@@ -154,9 +154,11 @@ void AddStrokes(Text& svg, const std::vector<Stroke>& strokes, const CurveColors
   svg.Add("<g fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\" stroke-width=\"",
           Rounded(width), "\">\n");
   // A halo under every stroke shows which of two crossing branches is in front.
-  const std::string halo = "class=\"h\" stroke-width=\"" + std::to_string(width + 2.2) + "\"";
+  Text halo;
+  halo.Add("class=\"h\" stroke-width=\"", Rounded(width + 2.2), "\"");
+  const std::string halo_style = std::move(halo).Take();
   for (const Stroke& stroke : strokes) {
-    AddPath(svg, stroke, halo);
+    AddPath(svg, stroke, halo_style);
     AddPath(svg, stroke, "stroke=\"" + HexColor(colors.Rgb(stroke.color)) + "\"");
   }
   svg.Add("</g>\n");

@@ -8,7 +8,7 @@ import os
 import pathlib
 import warnings
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, Callable, ContextManager, Iterator, Optional, Tuple, Union
+from typing import TYPE_CHECKING, Any, Callable, ContextManager, Iterator, List, Optional, Tuple, Union
 
 import numpy as np
 
@@ -30,11 +30,15 @@ _Progress = Optional[Callable[[int, int], Any]]
 _SYSTEM_AUTHORITIES = "/etc/ssl/certs/ca-certificates.crt"
 
 
+def _check_timeout(timeout: Optional[float]) -> None:
+    if timeout is not None and not (isinstance(timeout, numbers.Real) and 0 < timeout <= 1e7):
+        raise ValueError(f"timeout must be a positive number of seconds, got {timeout!r}")
+
+
 def _call(server: Any, threads: int, timeout: Optional[float], progress: _Progress) -> Any:
     if not isinstance(threads, numbers.Integral) or not 0 <= threads <= 1024:
         raise ValueError(f"threads must be a whole number from 0 to 1024, got {threads!r}")
-    if timeout is not None and not (isinstance(timeout, numbers.Real) and 0 < timeout <= 1e7):
-        raise ValueError(f"timeout must be a positive number of seconds, got {timeout!r}")
+    _check_timeout(timeout)
     if progress is not None and not callable(progress):
         raise TypeError("progress must be a function of (done, total) or None, got "
                         f"{type(progress).__name__}")
@@ -101,6 +105,12 @@ def _warn_of_no_labels(image: np.ndarray, all_wanted: bool) -> None:
                       "one (Otsu's threshold)", stacklevel=4)
 
 
+def _labels_in(wanted: Any) -> List[int]:
+    """The single labels that are asked for, not ranges such as '3-7'."""
+    values = np.ravel(list(wanted) if isinstance(wanted, (set, frozenset, range)) else wanted)
+    return [int(value) for value in values if isinstance(value, numbers.Real)]
+
+
 def _labels(server: Any, image: Any, spacing: Any, origin: Any, direction: Any, axes: str,
             threads: int, timeout: Optional[float], progress: Any,
             options: Mapping[str, Any]) -> dict:
@@ -119,8 +129,7 @@ def _labels(server: Any, image: Any, spacing: Any, origin: Any, direction: Any, 
     except ValueError:
         check_labels(array)  # names the voxel in the order of these axes
         raise
-    absent = [label for label in np.ravel(wanted) if isinstance(label, (int, np.integer))
-              and int(label) not in outcomes]
+    absent = [label for label in _labels_in(wanted) if label not in outcomes]
     if absent:
         fewer = " or fewer than min_voxels" if options.get("min_voxels") else ""
         names = ", ".join(map(str, absent[:10])) + (", ..." if len(absent) > 10 else "")
@@ -321,7 +330,12 @@ def _read(name: str, options: Mapping[str, Any]) -> Union[Image, Mesh, Lattice, 
 
 
 def _pem(path: Optional[Union[str, os.PathLike]]) -> str:
-    return "" if path is None else pathlib.Path(path).read_text()
+    if path is None:
+        return ""
+    text = pathlib.Path(path).read_text()
+    if not text.strip():
+        raise ValueError(f"{path}: is empty")
+    return text
 
 
 class Client(_Functions):
@@ -399,5 +413,6 @@ class Client(_Functions):
 
     def describe(self, timeout: float = 10.0) -> dict[str, str]:
         """{'server_version': ..., 'algorithm_version': ...}"""
+        _check_timeout(timeout)
         with self._hints():
-            return _native.describe_server(self._endpoint, timeout)
+            return _native.describe_server(self._endpoint, float(timeout))

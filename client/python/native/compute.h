@@ -50,7 +50,7 @@ struct Outcome {
   absl::StatusOr<std::shared_ptr<const Volume>> Object() const;
 };
 
-// A JSON result. Errors: those of ReadResultGraph().
+// A JSON result. Errors: those of ReadResultDocument() and ResultGraphOf().
 absl::StatusOr<Outcome> ReadResult(const std::string& path, const std::stop_token& stop);
 
 using OnProgress = std::function<void(uint64_t done, uint64_t total)>;

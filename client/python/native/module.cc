@@ -165,9 +165,17 @@ LabelOutcomes Labels(const py::array& array, const Placement& placement, const O
 std::optional<double> GrayThreshold(const py::array& array) {
   ArraySource source = Value(ArraySource::Create(ViewOf(array), {}));
   const ImageSize size = source.info().size;
-  GrayLevels levels(size);
-  for (int32_t z = 0; z < size.nz; ++z) levels.Add(Value(source.NextSlice()));
-  return levels.Threshold();
+  return RunFor(py::none(), [&](Job& job) -> absl::StatusOr<std::optional<double>> {
+    exec::Context context;
+    context.stop = job.stop();
+    GrayLevels levels(size);
+    for (int32_t z = 0; z < size.nz; ++z) {
+      BCCSKEL_RETURN_IF_ERROR(context.StopStatus());
+      BCCSKEL_ASSIGN_OR_RETURN(const ImageSlice slice, source.NextSlice());
+      levels.Add(slice);
+    }
+    return levels.Threshold();
+  });
 }
 
 absl::Status ReadInto(ImageSource& source, std::byte* to, const exec::Context& context) {

@@ -78,8 +78,9 @@ function showCertificate() {
   element("verdict").textContent = !kept ? "\u2717 TOPOLOGY NOT KEPT"
     : sampled ? "\u2713 kept from the sampled object on; sampling may have changed the image's"
       : "\u2713 topology kept";
-  element("digest").textContent = `sha256 ${result.sha256.slice(0, 12)}\u2026`;
-  element("digest").title = result.sha256;
+  const digest = String(result.sha256 ?? "");
+  element("digest").textContent = digest && `sha256 ${digest.slice(0, 12)}\u2026`;
+  element("digest").title = digest;
 }
 
 function showCounts() {

@@ -219,6 +219,7 @@ class Refusals(TestCase):
 
     def test_shapes_that_are_none(self):
         out = self.folder / "out.json"
+        self.expect_refused(2, "the command is missing", "--generate", "ball")
         self.expect_refused(2, "no shape is named", "skeletonize", "--generate", "bal", "-o", out)
         self.expect_refused(3, "must be", "skeletonize", "--generate", "ball", "--points", 7, "-o",
                             out)

@@ -231,6 +231,22 @@ TEST(Options, RefusesColumnsOfDifferentLengths) {
   EXPECT_EQ(ViolatedField(FromMessage(message, "options").status()), "options.keep");
 }
 
+TEST(Options, RefusesMorePointsToKeepThanAJobMayHold) {
+  v1::SkeletonizeOptions message;
+  for (int n = 0; n < 16384; ++n) {
+    message.mutable_keep()->add_x(n);
+    message.mutable_keep()->add_y(0);
+    message.mutable_keep()->add_z(0);
+  }
+  EXPECT_TRUE(FromMessage(message, "options").ok());
+  message.mutable_keep()->add_x(1);
+  message.mutable_keep()->add_y(1);
+  message.mutable_keep()->add_z(1);
+  const absl::Status status = FromMessage(message, "options").status();
+  EXPECT_EQ(ViolatedField(status), "options.keep");
+  EXPECT_THAT(status.message(), testing::HasSubstr("16385 points, the limit is 16384"));
+}
+
 TEST(Options, RefusesWhatTheCoreRefuses) {
   v1::SkeletonizeOptions message;
   message.set_shell_width(0.1);

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <thread>
 
 #include "core/digest/crc32c.h"
 #include "server/errors/call_error.h"
@@ -157,6 +158,17 @@ TEST_F(DurableUploadsTest, ErasesTheBytesOfADeletedVolumeUnlessAnotherHasThem) {
   EXPECT_TRUE(DeleteVolume("clinic", two).ok());
   EXPECT_THAT(FilesIn("blobs"), IsEmpty());
   EXPECT_EQ(durable_jobs_->usage().disk_bytes, 0u);
+}
+
+TEST_F(DurableUploadsTest, GivesTheBytesOfVolumesThatExpireTogetherBackOnce) {
+  Upload("clinic", "same", " one");
+  Upload("clinic", "same", " two");
+  Wait(std::chrono::hours(2));
+  Upload("clinic", "newer!");
+  Wait(std::chrono::hours(23));
+  while (FilesIn("blobs").size() > 1) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  EXPECT_TRUE(List("clinic").ok()) << "waits for what the server is doing";
+  EXPECT_EQ(durable_jobs_->usage().disk_bytes, 6u);
 }
 
 TEST_F(DurableUploadsTest, CountsUploadsByTheirDeclaredSize) {

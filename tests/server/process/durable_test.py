@@ -70,6 +70,27 @@ class JobTest(DurableTest):
                 break
         self.assertEqual(found, made[::-1])
 
+    def test_lists_omit_the_points_to_keep(self):
+        self.start()
+        options = shell_width(1)
+        options.keep.MergeFrom(options_pb2.LatticePoints(x=[1], y=[1], z=[3]))
+        job = self.create(durable.send_volume(self.channel, *volume()), options=options).name
+        [listed] = self.jobs.ListJobs(jobs.ListJobsRequest()).jobs
+        self.assertEqual(listed.name, job)
+        self.assertFalse(listed.options.HasField("keep"))
+        self.assertEqual(self.get(job).options.keep, options.keep)
+
+    def test_unknown_fields_of_a_declaration_are_not_stored(self):
+        self.start()
+        declaration, data = volume()
+        padded = type(declaration)()
+        unknown = b"\xa2\x06\x05" + 5 * b"x"  # field 100
+        padded.ParseFromString(declaration.SerializeToString() + unknown)
+        self.volumes.UploadVolume(upload_requests("uploads/padded", padded, data, len(data)))
+        upload = self.volumes.UploadVolume(upload_requests(
+            "uploads/padded", declaration, data, finish=True)).upload
+        self.assertEqual(upload.committed_size, len(data))
+
     def test_errors_say_what_is_wrong(self):
         self.start()
         none = "jobs/none"

@@ -51,12 +51,14 @@ class SettingsTest(unittest.TestCase):
         code, settings, errors = check_config(
             "--max-jobs", "2",
             environment={"BCCSKEL_MAX_JOBS": "3", "BCCSKEL_THREADS": "4",
-                         "BCCSKEL_LISTEN": "127.0.0.1:1,unix:/run/x"},
+                         "BCCSKEL_LISTEN": "127.0.0.1:1,unix:/run/x",
+                         "BCCSKEL_DATA_DIR": "/srv/a,b"},
             file='max-jobs = 5\nthreads = 6\nmax-queue = 7\nlog-level = "error"\n')
         self.assertEqual((code, errors), (0, ""))
         self.assertEqual(settings["max-jobs"], ("2", "command line"))
         self.assertEqual(settings["threads"], ("4", "environment"))
         self.assertEqual(settings["listen"], ('["127.0.0.1:1", "unix:/run/x"]', "environment"))
+        self.assertEqual(settings["data-dir"], ('"/srv/a,b"', "environment"))
         self.assertEqual(settings["max-queue"], ("7", "file"))
         self.assertEqual(settings["log-level"], ('"error"', "file"))
         self.assertEqual(settings["drain-ms"], ("25000", "default"))
