@@ -158,7 +158,8 @@ bool FlatEnd::Step(Walker& walker) {
   return in_plane();
 }
 
-// Moves at most half a step sideways, and not near the rim ahead.
+// Moves at most half a step sideways, and not where the rim ahead is nearest: a walk that has left
+// the middle for the rim returns.
 FlatEnd::Sides FlatEnd::MoveToMiddle(Walker& walker, double widest) {
   const double longest = kMostWiden * widest + kFlatMargin;
   const Coordinates left = Cross(walker.normal, walker.way), right = Times(-1, left);
@@ -167,7 +168,7 @@ FlatEnd::Sides FlatEnd::MoveToMiddle(Walker& walker, double widest) {
   const double to_right = sheet_.WayToSide(place, way, right, normal, longest);
   const double width = (to_left + to_right) / 2;
   const double ahead = sheet_.WayToRim(place, way, normal, width + walk_step_);
-  if (ahead > width) {
+  if (ahead > std::min(to_left, to_right)) {
     const double aside = std::clamp((to_left - to_right) / 2, -walk_step_ / 2, walk_step_ / 2);
     walker.place = sheet_.MiddleNear(Sum(place, aside, left), normal).value_or(place);
   }

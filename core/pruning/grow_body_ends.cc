@@ -24,6 +24,16 @@ constexpr double kBeside = 0.5;          // cosine: limbs in this cone must be t
 constexpr double kThinnerBeside = 0.75;  // their largest radius, in radii of the end
 constexpr double kStraight = 0.75;       // least cosine of the end at its exit
 constexpr double kLeastDepth = 0.35;     // least depth there, in radii of the ball
+constexpr double kLeastTurning = 1.5;    // least radius of a body there, as for MayHaveBodyEnds()
+// Where a curve turns from a body into a limb, in radii of the body: the limb's largest radius at
+// its exit, and the least radii of the turn and of the body at the other exit.
+constexpr double kThinnerAhead = 0.7, kAboutAsThick = 0.92, kThickBehind = 0.85;
+
+// Where a body may have an end: at a junction, or where a curve turns from it into a limb.
+struct Place {
+  LatticePoint center;
+  std::optional<LatticePoint> limb;  // the end to which the curve leads, if it is free
+};
 
 class BodyEnds {
  public:
@@ -37,7 +47,8 @@ class BodyEnds {
         threshold_(threshold) {}
 
   // Returns whether an end grew; otherwise nothing changed.
-  bool GrowAt(LatticePoint junction) {
+  bool GrowAt(const Place& place) {
+    const LatticePoint junction = place.center;
     const JunctionBall ball(set_, junction);
     if (ball.exits().empty()) return false;
     const LatticePoint body = ball.visited()[ball.body()].p;
@@ -53,7 +64,7 @@ class BodyEnds {
       path_ = ball.WayTo(start);
       own_ = path_.size();
       const bool left = Follow(ball, on, beside, body);
-      if (left && IsSignificant()) {
+      if (left && IsSignificant() && LeavesALimb(place)) {
         MeasureGrown();
         return true;
       }
@@ -116,6 +127,13 @@ class BodyEnds {
     return branch.junction.has_value() && significance_.OfBodyEnd(set_, branch) >= threshold_;
   }
 
+  // Else the curve only turned into a corner of the end.
+  bool LeavesALimb(const Place& place) {
+    if (!place.limb.has_value()) return true;
+    const FreeBranch limb = BranchFrom(set_, *place.limb);
+    return !limb.junction.has_value() || significance_.Of(set_, limb) >= threshold_;
+  }
+
   void CutTo(size_t size) {
     for (; path_.size() > size; path_.pop_back()) set_.Remove(path_.back());
   }
@@ -159,8 +177,9 @@ std::vector<LatticePoint> JunctionAt(LatticePoint p, const ThinSet& set,
 }
 
 // The deepest point of each junction, of those in balls that are large enough.
-std::vector<LatticePoint> JunctionsOf(const ThinSet& set, const Significance& significance) {
-  std::vector<LatticePoint> points, deepest;
+std::vector<Place> JunctionsOf(const ThinSet& set, const Significance& significance) {
+  std::vector<LatticePoint> points;
+  std::vector<Place> deepest;
   set.ForEachPoint([&](LatticePoint p) {
     if (set.Branches(p) && significance.MayHaveBodyEnds(set.RadiusOf(p))) points.push_back(p);
   });
@@ -170,10 +189,55 @@ std::vector<LatticePoint> JunctionsOf(const ThinSet& set, const Significance& si
     if (in_surface.Find(p) != nullptr) continue;
     const std::vector<LatticePoint> junction = JunctionAt(p, set, in_surface);
     if (junction.empty()) continue;
-    deepest.push_back(
-        *std::ranges::max_element(junction, {}, [&](LatticePoint q) { return set.RadiusOf(q); }));
+    const auto radius = [&](LatticePoint q) { return set.RadiusOf(q); };
+    deepest.push_back({*std::ranges::max_element(junction, {}, radius), std::nullopt});
   }
   return deepest;
+}
+
+// The points of a curve at which it turns from a body into a thinner limb: the last ones that are
+// about as thick as the body. The curve leads away from the body.
+void AddTurnsOf(std::span<const LatticePoint> curve, const ThinSet& set,
+                const Significance& significance, std::vector<Place>& turns) {
+  const LatticePoint end = curve.back();
+  const auto limb = set.IsEnd(end) ? std::optional(end) : std::nullopt;
+  const auto exit_at = [&](size_t n, size_t exit) {
+    return set.Between(curve[n], curve[exit]) >= JunctionBall::kExit * set.RadiusOf(curve[n]);
+  };
+  size_t exit = 1;
+  for (size_t n = 0; n < curve.size(); ++n) {
+    const double body = set.RadiusOf(curve[n]);
+    exit = std::max(exit, n + 1);
+    while (exit < curve.size() && !exit_at(n, exit)) ++exit;
+    if (exit == curve.size()) break;
+    if (!significance.MayHaveBodyEnds(body, kLeastTurning)) continue;
+    if (set.RadiusOf(curve[exit]) > kThinnerAhead * body) continue;
+    size_t last = n;
+    while (set.RadiusOf(curve[last + 1]) >= kAboutAsThick * body) ++last;
+    size_t before = last;
+    while (before > 0 && !exit_at(last, before)) --before;
+    const bool from_body = exit_at(last, before) &&
+                           set.RadiusOf(curve[before]) >= kThickBehind * set.RadiusOf(curve[last]);
+    if (from_body) turns.push_back({curve[last], limb});
+    n = exit;
+  }
+}
+
+void AddTurns(const ThinSet& set, const Significance& significance, std::vector<Place>& turns) {
+  std::vector<LatticePoint> starts;
+  set.ForEachPoint([&](LatticePoint p) {
+    if (!IsCurvePoint(set.NeighborsOf(p))) starts.push_back(p);
+  });
+  std::ranges::sort(starts);
+  std::vector<LatticePoint> curve;
+  for (LatticePoint start : starts) {
+    ForEachNeighbor(start, set.NeighborsOf(start), [&](LatticePoint next) {
+      if (!IsCurvePoint(set.NeighborsOf(next))) return;
+      curve = {start};
+      curve.push_back(FollowCurve(set, start, next, curve));
+      AddTurnsOf(curve, set, significance, turns);
+    });
+  }
 }
 
 // Grows ends in a set that other workers read, too: each as if it were the first.
@@ -186,8 +250,8 @@ class Trial {
         significance_(significance),
         ends_(set_, in, depths_->firm, significance_, threshold) {}
 
-  std::vector<ThinSet::Change> GrowAt(LatticePoint junction) {
-    const bool grew = ends_.GrowAt(junction);
+  std::vector<ThinSet::Change> GrowAt(const Place& place) {
+    const bool grew = ends_.GrowAt(place);
     std::vector<ThinSet::Change> changes = set_.TakeChanges();
     return grew ? std::move(changes) : std::vector<ThinSet::Change>();
   }
@@ -203,21 +267,22 @@ class Trial {
 
 void GrowBodyEnds(ThinSet& set, const PrunedObject& in, TipDepths& depths,
                   Significance& significance, double threshold, const exec::Context& context) {
-  const std::vector<LatticePoint> junctions = JunctionsOf(set, significance);
-  if (junctions.empty()) return;
-  std::vector<std::vector<ThinSet::Change>> grown(junctions.size());
-  const int workers = context.WorkersFor(junctions.size(), Significance::kWork);
-  (void)context.ForEach(workers, junctions.size(), 1, [&](int worker) {
+  std::vector<Place> places = JunctionsOf(set, significance);
+  AddTurns(set, significance, places);
+  if (places.empty()) return;
+  std::vector<std::vector<ThinSet::Change>> grown(places.size());
+  const int workers = context.WorkersFor(places.size(), Significance::kWork);
+  (void)context.ForEach(workers, places.size(), 1, [&](int worker) {
     return [&, trial = Trial(worker, set, in, depths, significance, threshold)](size_t n) mutable {
-      grown[n] = trial.GrowAt(junctions[n]);
+      grown[n] = trial.GrowAt(places[n]);
     };
   });
   std::optional<BodyEnds> ends;
-  for (size_t n = 0; n < junctions.size(); ++n) {
+  for (size_t n = 0; n < places.size(); ++n) {
     if (context.ShouldStop()) return;
     if (set.Apply(grown[n])) continue;
     if (!ends.has_value()) ends.emplace(set, in, depths.firm, significance, threshold);
-    ends->GrowAt(junctions[n]);
+    ends->GrowAt(places[n]);
   }
 }
 

@@ -170,7 +170,8 @@ absl::StatusOr<ThinSkeleton> Prune(const ThinSkeleton& curves, const PrunedObjec
     if (by_shape) {
       CollapsePaths(set, significance, threshold, kept);
       if (depths.has_value()) {
-        GrowBodyEnds(set, in, *depths, significance, threshold, context);
+        const double least = std::max(threshold, kDefaultSignificance);
+        GrowBodyEnds(set, in, *depths, significance, least, context);
       }
     }
     if (absl::Status stop = context.StopStatus(); !stop.ok()) return stop;

@@ -21,8 +21,7 @@ constexpr double kLeastFine = 0.35;     // below this, a rough value suffices
 constexpr size_t kRoots = 7;            // the limb may begin at one of the first seven places
 constexpr size_t kNearTip = 9;          // a place near the tip
 constexpr double kLongestRay = 400;
-constexpr double kBulge = 1.2;      // least radius of a bulge at its end, in radii of the junction
-constexpr double kLeastBall = 2.5;  // least radius of a body with ends, in noise and margin
+constexpr double kBulge = 1.2;  // least radius of a bulge at its end, in radii of the junction
 constexpr size_t kCoverSamples = 16;
 // On a rough surface, noise makes limbs beside trunks: there it is subtracted from lengths and not
 // from their squares, in proportion to the roughness, from 1 / 25 on completely.
@@ -81,7 +80,8 @@ double Significance::Of(const ThinSet& set, const FreeBranch& branch) {
   if (beside_trunk > std::max(value, kLeastRatio) && LeavesTrunk(set, branch, sections_)) {
     value = beside_trunk;
   }
-  return value < kSureRatio ? std::max(value, OfBodyEnd(set, branch, value)) : value;
+  if (value >= kSureRatio || !MayHaveBodyEnds(set.RadiusOf(*branch.junction))) return value;
+  return std::max(value, OfBodyEnd(set, branch, value));
 }
 
 double Significance::BesideTrunk(const ThinSet& set, const BranchPath& path, const Run& run) {
@@ -109,7 +109,6 @@ bool Significance::LeadsBesideCut(const ThinSet& set, const FreeBranch& branch) 
 double Significance::OfBodyEnd(const ThinSet& set, const FreeBranch& branch, double least) {
   const LatticePoint junction = *branch.junction;
   const double radius = set.RadiusOf(junction);
-  if (!MayHaveBodyEnds(radius)) return kNone;
   const auto sticks_out = [&](LatticePoint p, double depth) {
     return set.Between(junction, p) + depth - radius;
   };
@@ -142,8 +141,8 @@ double Significance::OfBodyEnd(const ThinSet& set, const FreeBranch& branch, dou
          UncoveredShare(set, branch, outer_half);
 }
 
-bool Significance::MayHaveBodyEnds(double radius) const {
-  return radius >= kLeastBall * (noise_.At(radius) + SurfaceNoise::kMargin);
+bool Significance::MayHaveBodyEnds(double radius, double least) const {
+  return radius >= least * (noise_.At(radius) + SurfaceNoise::kMargin);
 }
 
 bool Significance::IsCovered(const ThinSet& set, std::span<const LatticePoint> path,

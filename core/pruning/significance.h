@@ -78,8 +78,9 @@ class Significance {
   // at most `least` or 0.2. Needs: as Of().
   double OfBodyEnd(const ThinSet& set, const FreeBranch& branch,
                    double least = -std::numeric_limits<double>::infinity());
-  // Whether a ball of this radius at a junction is large enough, compared with the noise.
-  bool MayHaveBodyEnds(double radius) const;
+  // Whether a ball of this radius at a junction is at least `least` times the noise and the margin.
+  static constexpr double kLeastBall = 2.5;
+  bool MayHaveBodyEnds(double radius, double least = kLeastBall) const;
   // Whether the next point of a path lies in the ball of a branch other than those at the junction
   // from which the path comes (BallIndex). Needs: the path begins with the junction.
   // `radius`: that of the next point, or more.

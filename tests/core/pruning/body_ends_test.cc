@@ -67,6 +67,35 @@ TEST(BodyEnds, SnoutsBesideTwoEarsStay) {
   }
 }
 
+// The curve turned into the twig, and what thinning left of the trunk's end was pruned.
+TEST(BodyEnds, TrunksGoOnBeyondTheirLastTwig) {
+  constexpr int32_t kCells = 100;
+  constexpr double kTwig = 0.4;  // in radii of the trunk, as are the others
+  for (const double thick : {12.0, 20.0}) {
+    for (const double angle : {0.8, 1.05, 1.3}) {
+      // How far the middle of the trunk's round end lies beyond the crotch.
+      for (const double beyond : {-0.9, 0.45}) {
+        const double x = (beyond + 1 / std::tan(angle) + kTwig / std::sin(angle)) * thick;
+        const double length = (1 + 6 * kTwig) * thick;
+        const WorldPoint end = {x, 0, 0};
+        const WorldPoint twig = {std::cos(angle) * length, std::sin(angle) * length, 0};
+        const auto solid = [&](const WorldPoint& p) {
+          return ToLimb(p, {-80, 0, 0}, thick, end, thick) <= 0 ||
+                 ToLimb(p, {0, 0, 0}, kTwig * thick, twig, kTwig * thick) <= 0;
+        };
+        for (const double turn : {0.1, 0.7, 1.9}) {
+          SCOPED_TRACE(testing::Message() << thick << ' ' << angle << ' ' << beyond << ' ' << turn);
+          const auto result = Skeletonize(test::Sampled(solid, kCells, turn), {}, {});
+          ASSERT_TRUE(result.ok()) << result.status();
+          EXPECT_EQ(FreeEndsOf(result->graph), beyond > 0 ? 3 : 2);
+          const double gap = GapAt(end, result->graph, kCells, turn);
+          EXPECT_TRUE(beyond < 0 || gap < thick / 4) << gap;
+        }
+      }
+    }
+  }
+}
+
 // The face beyond the limbs sticks out by less than the bar is thick, and its corners are no ends.
 TEST(BodyEnds, FacesAndCapsJustBeyondLimbsHaveNone) {
   constexpr int32_t kCells = 90;

@@ -173,30 +173,43 @@ TEST(FlatEnd, LiesInTheMiddleOfALimbBentInItsPlane) {
   }
 }
 
+// On a stalk; `slope` is the sine of half the angle at its point, `flatness` its width by its
+// thickness.
+struct BroadLeaf {
+  static constexpr double kHalf = 56, kPoint = 6;
+  double slope, flatness;
+
+  double Length() const { return (kHalf - kPoint) / slope; }
+  bool Contains(Vector at) const {
+    if (std::abs(at.z) > kHalf / flatness) return false;
+    const double x = at.x + 20, y = std::abs(at.y);
+    const double along = std::clamp(x - y * slope / std::sqrt(1 - slope * slope), 0.0, Length());
+    const double width = kHalf - slope * along;
+    const bool stalk = x < 0 && x > -80 && std::hypot(y, at.z) < 9;
+    return stalk || IsThick(width - std::hypot(x - along, y), width, width / flatness, at.z);
+  }
+  void CheckEnds(double turn, double noise, uint64_t seed) const {
+    SCOPED_TRACE(testing::Message() << turn << ' ' << noise);
+    const Turned leaf = {turn, 130, [&](Vector at) { return Contains(at); }};
+    const std::vector<Vector> ends = leaf.Ends(noise, seed);
+    ASSERT_EQ(ends.size(), 2u);
+    const Vector end = std::ranges::max(ends, {}, &Vector::x);
+    EXPECT_GT(end.x, Length() - 20 - 6);
+    EXPECT_LT(std::abs(end.y), 5);
+  }
+};
+
 // Its sides meet at 74 degrees, so W falls nearly as fast as the way grows.
 TEST(FlatEnd, LiesAtThePointOfABroadLeaf) {
-  static constexpr double kHalf = 56, kPoint = 6, kSlope = 0.6;  // a sine
-  static constexpr double kLength = (kHalf - kPoint) / kSlope;
   for (const double turn : {0.2, 0.5, 0.9}) {
-    const Turned leaf = {turn, 110, [](Vector at) {
-                           if (std::abs(at.z) > kHalf / 4) return false;
-                           const double x = at.x + 20, y = std::abs(at.y);
-                           const double cosine = std::sqrt(1 - kSlope * kSlope);
-                           const double along = std::clamp(x - y * kSlope / cosine, 0.0, kLength);
-                           const double width = kHalf - kSlope * along;
-                           const double rim = width - std::hypot(x - along, y);
-                           const bool stalk = x < 0 && x > -80 && std::hypot(y, at.z) < 9;
-                           return stalk || IsThick(rim, width, width / 4, at.z);
-                         }};
-    for (const double noise : {0.0, 0.05}) {
-      SCOPED_TRACE(testing::Message() << turn << ' ' << noise);
-      const std::vector<Vector> ends = leaf.Ends(noise, 1);
-      ASSERT_EQ(ends.size(), 2u);
-      const Vector end = std::ranges::max(ends, {}, &Vector::x);
-      EXPECT_GT(end.x, kLength - 20 - 6);
-      EXPECT_LT(std::abs(end.y), 5);
-    }
+    BroadLeaf{.slope = 0.6, .flatness = 4}.CheckEnds(turn, 0, 1);
+    BroadLeaf{.slope = 0.6, .flatness = 4}.CheckEnds(turn, 0.05, 1);
   }
+}
+
+// Noise led the walk out of the middle, and it went on to the rim.
+TEST(FlatEnd, ReturnsToTheMiddleOfALeafThatTheWalkHasLeft) {
+  BroadLeaf{.slope = 0.55, .flatness = 6}.CheckEnds(1.1, 0.1, 2);
 }
 
 // Its corners end no limbs.
