@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/pruning/thin_set.h"
@@ -68,6 +69,28 @@ inline FreeBranch BranchFrom(const ThinSet& set, LatticePoint end) {
     branch.junction = p;
   }
   return branch;
+}
+
+// A curve that leads away from a fork.
+struct Arm {
+  LatticePoint fork;
+  std::vector<LatticePoint> points;  // from the fork on
+  bool is_free = false;              // leads to an end, which is the last of them
+};
+
+// The curves that leave a cluster.
+inline std::vector<Arm> ArmsOf(const ThinSet& set, std::span<const LatticePoint> cluster) {
+  std::vector<Arm> arms;
+  for (LatticePoint fork : cluster) {
+    ForEachNeighbor(fork, set.NeighborsOf(fork), [&](LatticePoint first) {
+      if (set.Branches(first)) return;
+      Arm& arm = arms.emplace_back(Arm{fork, {}});
+      const LatticePoint last = FollowCurve(set, fork, first, arm.points);
+      arm.is_free = set.IsEnd(last);
+      if (arm.is_free) arm.points.push_back(last);
+    });
+  }
+  return arms;
 }
 
 }  // namespace bccskel

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/pruning/junction_ball.h"
+#include "core/pruning/square_end.h"
 #include "core/pruning/trunk.h"
 
 namespace bccskel {
@@ -17,9 +18,10 @@ constexpr double kWallSteepness = 0.4;  // weight of the inscribed circle's fall
 constexpr double kWidthShare = 2.2;     // weight of half-width - radius
 constexpr double kSureRatio = 2;        // above this, what lies beyond the end does not matter
 constexpr double kLeastRatio = 0.2;     // below this, the branch is a bump whatever its width
-constexpr double kLeastFine = 0.35;     // below this, a rough value suffices
-constexpr size_t kRoots = 7;            // the limb may begin at one of the first seven places
-constexpr size_t kNearTip = 9;          // a place near the tip
+constexpr double kLeastCorner = 0.4, kMostCorner = 0.95;  // of the corners of a strip
+constexpr double kLeastFine = 0.35;                       // below this, a rough value suffices
+constexpr size_t kRoots = 7;    // the limb may begin at one of the first seven places
+constexpr size_t kNearTip = 9;  // a place near the tip
 constexpr double kLongestRay = 400;
 constexpr double kBulge = 1.2;  // least radius of a bulge at its end, in radii of the junction
 constexpr size_t kCoverSamples = 16;
@@ -79,6 +81,10 @@ double Significance::Of(const ThinSet& set, const FreeBranch& branch) {
   }
   if (beside_trunk > std::max(value, kLeastRatio) && LeavesTrunk(set, branch, sections_)) {
     value = beside_trunk;
+  }
+  if (value >= kLeastCorner && value < kMostCorner &&
+      LeadsIntoCornerOfStrip(set, branch, sections_)) {
+    return kLeastCorner;
   }
   if (value >= kSureRatio || !MayHaveBodyEnds(set.RadiusOf(*branch.junction))) return value;
   return std::max(value, OfBodyEnd(set, branch, value));

@@ -1,6 +1,7 @@
 #include "core/pruning/turned_tips.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -19,32 +20,6 @@ constexpr double kLimbWorth = 2;      // least worth of a free limb, in worths o
 // In radii: half-widths across a disc's rib and across its shaft, so far before the disc.
 constexpr double kWide = 1.8, kRound = 1.5, kBeforeDisc = 3;
 constexpr double kTwin = 1.15;  // largest worth of a tip that turns aside, in thresholds
-
-// A curve that leads away from a fork.
-struct Arm {
-  LatticePoint fork;
-  std::vector<LatticePoint> points;  // from the fork on
-  bool is_free = false;              // leads to an end
-  double worth = 0;                  // known if it is free
-};
-
-Arm ArmFrom(const ThinSet& set, LatticePoint fork, LatticePoint first) {
-  Arm arm{fork, {}, false, 0};
-  const LatticePoint p = FollowCurve(set, fork, first, arm.points);
-  arm.is_free = set.IsEnd(p);
-  if (arm.is_free) arm.points.push_back(p);
-  return arm;
-}
-
-std::vector<Arm> ArmsOf(const ThinSet& set, std::span<const LatticePoint> cluster) {
-  std::vector<Arm> arms;
-  for (LatticePoint p : cluster) {
-    ForEachNeighbor(p, set.NeighborsOf(p), [&](LatticePoint q) {
-      if (!set.Branches(q)) arms.push_back(ArmFrom(set, p, q));
-    });
-  }
-  return arms;
-}
 
 // The direction of the limb over its last two radii before the fork; none if it is shorter.
 std::optional<Coordinates> WayOfLimb(const ThinSet& set, const Arm& limb, LatticePoint fork) {
@@ -72,19 +47,21 @@ void TurnedTips::Note(const ThinSet& set, const FreeBranch& going,
   if (arms.size() != 3) return;
   std::erase_if(arms, [&](const Arm& arm) { return arm.points.back() == going.points[0]; });
   if (arms.size() != 2 || (!arms[0].is_free && !arms[1].is_free)) return;
-  for (Arm& arm : arms) {
-    if (arm.is_free) arm.worth = worth_of({{arm.points.rbegin(), arm.points.rend()}, arm.fork});
+  std::array<double, 2> worths = {};  // of those that are free
+  for (const size_t n : {0, 1}) {
+    const Arm& arm = arms[n];
+    if (arm.is_free) worths[n] = worth_of({{arm.points.rbegin(), arm.points.rend()}, arm.fork});
   }
-  const bool second = !arms[0].is_free || (arms[1].is_free && arms[1].worth < arms[0].worth);
-  const Arm &aside = arms[second ? 1 : 0], &limb = arms[second ? 0 : 1];
-  if (limb.is_free && limb.worth < kLimbWorth * aside.worth) return;
+  const size_t less = !arms[0].is_free || (arms[1].is_free && worths[1] < worths[0]) ? 1 : 0;
+  const Arm &aside = arms[less], &limb = arms[1 - less];
+  if (limb.is_free && worths[1 - less] < kLimbWorth * worths[less]) return;
   const std::optional<Coordinates> in = WayOfLimb(set, limb, aside.fork);
   if (!in.has_value()) return;
   const Coordinates out = set.Way(aside.fork, aside.points.back());
   const double length = LengthOf(out), radius = set.RadiusOf(aside.fork);
   const double cosine = Dot(*in, out) / (LengthOf(*in) * length);
   if (cosine >= kStraightOn) return;
-  Tip tip = {{aside.points.rbegin(), aside.points.rend()}, aside.worth};
+  Tip tip = {{aside.points.rbegin(), aside.points.rend()}, worths[less]};
   tip.in_cap = cosine > 0 && length <= kLongest * radius;
   tip.is_rib = cosine > kBack && length > kShortest * radius &&
                set.Between(aside.fork, limb.points.back()) >= length;

@@ -212,6 +212,21 @@ TEST(FlatEnd, ReturnsToTheMiddleOfALeafThatTheWalkHasLeft) {
   BroadLeaf{.slope = 0.55, .flatness = 6}.CheckEnds(1.1, 0.1, 2);
 }
 
+// A strip 1.8 to 3 times as long as wide. Where its curve forked, how many of the four corners had
+// ends depended on the pose.
+TEST(FlatEnd, HasNoneInTheCornersOfAStrip) {
+  for (const double width : {40.0, 56.0, 66.0}) {
+    for (const double turn : {0.0, 0.2, 0.5, 1.0, 1.3}) {
+      SCOPED_TRACE(testing::Message() << width << ' ' << turn);
+      const double c = std::cos(turn), s = std::sin(turn);
+      const Block strip = {{kLength, width, kThickness}, {c, s * c, s * s}, {-s, c * c, c * s}};
+      const std::vector<Vector> ends = EndsOf(*shapes::Rasterize({{strip}}, 1));
+      ASSERT_EQ(ends.size(), 2u);
+      for (const Vector& end : ends) EXPECT_LT(std::abs(Dot(end, {-s, c * c, c * s})), width / 2);
+    }
+  }
+}
+
 // Its corners end no limbs.
 TEST(FlatEnd, LeavesThePlateItsCorners) {
   const Block plate = {{60, 60, kThickness}, {0.8, 0.6, 0}, {-0.6, 0.8, 0}};
