@@ -4,6 +4,7 @@
 
 #include <limits>
 #include <mutex>
+#include <new>
 #include <vector>
 
 #include "absl/strings/str_format.h"
@@ -78,6 +79,7 @@ void BodyWriter::FreeZstd::operator()(ZSTD_CCtx_s* zstd) const { ZSTD_freeCCtx(z
 BodyReader::BodyReader(VolumeCompression compression) {
   if (compression != VolumeCompression::kZstd) return;
   zstd_.reset(Contexts().Take());
+  if (zstd_ == nullptr) throw std::bad_alloc();
   ZSTD_DCtx_setParameter(zstd_.get(), ZSTD_d_windowLogMax, kMaxZstdWindowLog);
   buffer_ = std::make_unique_for_overwrite<std::byte[]>(kBufferBytes);
 }

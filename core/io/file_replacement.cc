@@ -77,11 +77,18 @@ absl::StatusOr<std::unique_ptr<FileReplacement>> FileReplacement::Begin(const st
   if (IsNameTooLong(path)) return SystemStatus(ENAMETOOLONG);  // the draft's is shorter
   const bool special = IsSpecialFile(path);
   const std::string place = special ? path : BehindLinks(path);
-  const std::string draft = special ? std::string() : DraftOf(place);
-  // mkstemp() would ignore the umask.
-  exec::Descriptor file(special
-                            ? ::open(path.c_str(), O_WRONLY | O_CLOEXEC)
-                            : ::open(draft.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+  std::string draft;
+  const auto create = [&] {
+    draft = DraftOf(place);
+    // mkstemp() would ignore the umask.
+    return ::open(draft.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  };
+  exec::Descriptor file(special ? ::open(path.c_str(), O_WRONLY | O_CLOEXEC) : create());
+  // Processes that were killed leave drafts, in containers often of the same number.
+  constexpr int kMostDrafts = 1000;
+  for (int n = 1; !file.is_open() && errno == EEXIST && n < kMostDrafts; ++n) {
+    file = exec::Descriptor(create());
+  }
   if (!file.is_open()) return CreationStatus(errno, path);
   return std::unique_ptr<FileReplacement>(new FileReplacement(place, draft, std::move(file)));
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -64,7 +65,9 @@ class GzipStream {
  public:
   explicit GzipStream(std::string& bytes) : bytes_(bytes) {
     constexpr int kGzip = 15 + 16;  // the largest window, with gzip's header
-    deflateInit2(&stream_, Z_BEST_SPEED, Z_DEFLATED, kGzip, 8, Z_DEFAULT_STRATEGY);
+    const int begun =
+        deflateInit2(&stream_, Z_BEST_SPEED, Z_DEFLATED, kGzip, 8, Z_DEFAULT_STRATEGY);
+    if (begun != Z_OK) throw std::bad_alloc();
   }
   ~GzipStream() { deflateEnd(&stream_); }
   GzipStream(const GzipStream&) = delete;

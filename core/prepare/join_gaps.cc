@@ -24,9 +24,9 @@
 namespace bccskel {
 namespace {
 
-constexpr uint64_t kBytesPerPoint = 192;      // in the hash table and the queue
-constexpr uint64_t kPointsAtOnce = 1u << 16;  // for which memory is taken
-constexpr double kLeastProgress = 0.5;        // of a step toward the end, in its length
+constexpr uint64_t kBytesPerItem = 96;       // in a hash table or a queue
+constexpr uint64_t kItemsAtOnce = 1u << 16;  // for which memory is taken
+constexpr double kLeastProgress = 0.5;       // of a step toward the end, in its length
 
 // Two points of different components.
 struct Bridge {
@@ -54,7 +54,7 @@ class GapJoiner {
   absl::StatusOr<ChangedVolume> Run() {
     BCCSKEL_RETURN_IF_ERROR(context_.StopStatus());
     if (names_.count() <= 1) return ChangedVolume{object_};
-    Start();
+    BCCSKEL_RETURN_IF_ERROR(Start());
     BCCSKEL_RETURN_IF_ERROR(Grow());
     return Build();
   }
@@ -75,18 +75,36 @@ class GapJoiner {
 
   size_t ComponentOf(LatticePoint p) { return names_.ComponentOf(object_, p); }
 
-  void Start() {
+  absl::Status Start() {
+    StopPoll poll(context_);
     std::vector<std::pair<uint64_t, size_t>> sizes(names_.name_limit());  // and first points
     size_t order = sizes.size();
     object_.ForEachPoint([&](LatticePoint p) {
+      if (poll.Stopped()) return;
       auto& [size, first] = sizes[ComponentOf(p)];
       if (size++ == 0) first = order--;
     });
     largest_ = static_cast<size_t>(std::ranges::max_element(sizes) - sizes.begin());
+    absl::Status paid;
     object_.ForEachPoint([&](LatticePoint p) {
+      if (poll.Stopped() || !paid.ok()) return;
       const size_t component = ComponentOf(p);
-      if (component != largest_) Reach(p, p, component);
+      if (component == largest_) return;
+      Reach(p, p, component);
+      paid = Pay();
     });
+    BCCSKEL_RETURN_IF_ERROR(paid);
+    return context_.StopStatus();
+  }
+
+  // Takes the memory of what was stored since the last call.
+  absl::Status Pay() {
+    const size_t stored = reached_.size() + visits_.size() + shortest_.size() + bridges_.size();
+    for (; paid_ < stored; paid_ += kItemsAtOnce) {
+      BCCSKEL_RETURN_IF_ERROR(
+          memory_.TakeFor(kItemsAtOnce, kBytesPerItem, "points around components"));
+    }
+    return absl::OkStatus();
   }
 
   // Passes on from a point that the source's component reaches to its neighbors.
@@ -124,7 +142,6 @@ class GapJoiner {
 
   absl::Status Grow() {
     StopPoll poll(context_);
-    uint64_t paid = 0;
     while (!visits_.empty() && left_ > 1) {
       if (poll.Stopped()) return context_.StopStatus();
       const auto [distance, point, source] = visits_.top();
@@ -135,11 +152,8 @@ class GapJoiner {
       if (reached.source != source) continue;  // a nearer one reached it since
       // The others grow toward what is joined to the largest.
       if (joined_.Find(reached.component) == joined_.Find(largest_)) continue;
-      for (; paid < reached_.size(); paid += kPointsAtOnce) {
-        BCCSKEL_RETURN_IF_ERROR(
-            memory_.TakeFor(kPointsAtOnce, kBytesPerPoint, "points around components"));
-      }
       Reach(point, source, reached.component);
+      BCCSKEL_RETURN_IF_ERROR(Pay());
     }
     JoinUpTo(gap_);
     return absl::OkStatus();
@@ -199,6 +213,7 @@ class GapJoiner {
   std::map<Components, Bridge> shortest_;
   std::priority_queue<Found, std::vector<Found>, std::greater<>> bridges_;
   std::vector<Bridge> built_;
+  uint64_t paid_ = 0;  // items for which memory is taken
 };
 
 }  // namespace

@@ -270,6 +270,12 @@ class ExitCodesTest(harness.TestCase):
         os.close(writer)
         self.assertEqual(done.returncode, 8, done.stderr)
 
+    def test_0_though_a_process_of_the_same_number_left_a_draft(self):
+        command = 'touch "$1".part$$.0 && exec "$0" generate ball --points 6000 -o "$1"'
+        done = subprocess.run(["bash", "-c", command, harness.CLIENT, self.path("out.exr")],
+                              capture_output=True, text=True, timeout=60)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
     def test_0_leaves_no_draft_behind(self):
         volume = self.generate("ball")
         self.succeed(*self.skeletonize(volume, "--local"))

@@ -1,8 +1,8 @@
 #ifndef BCCSKEL_CORE_IMPORT_IMAGE_IMAGE_HEADERS_H_
 #define BCCSKEL_CORE_IMPORT_IMAGE_IMAGE_HEADERS_H_
 
-// The headers of all formats but TIFF; open_image.h chooses between them. README.md explains why
-// they are not left to libraries.
+// The headers of formats with one stream of voxels; open_image.h chooses between them. README.md
+// explains why they are not left to libraries.
 
 #include <bit>
 #include <memory>

@@ -52,11 +52,10 @@ absl::StatusOr<std::unique_ptr<ImageSource>> OpenDicom(const std::string& path,
 // True for a folder that Zarr writes, of version 2 or 3.
 bool IsZarrFolder(const std::string& folder);
 
-// The chosen level, channel and point of time of an OME-Zarr image (versions 0.1 to 0.4), or a Zarr
-// array of version 2, whose axes are then t, c, z, y, x or the last ones of these.
+// The chosen level, channel and point of time of an OME-Zarr image (versions 0.1 to 0.5), or a Zarr
+// array of version 2 or 3. Axes that an array does not name are t, c, z, y, x or the last of these.
 // Errors: those of ParseZarrArray(), ParseMultiscales() and OpenChunkedImage(); INVALID_ARGUMENT
-//         for several channels or points of time of which options choose none; UNIMPLEMENTED for
-//         version 3.
+//         for several channels or points of time of which options choose none.
 absl::StatusOr<std::unique_ptr<ImageSource>> OpenZarr(const std::string& folder,
                                                       const ImageOptions& options);
 

@@ -26,8 +26,8 @@ struct ImageSlice {
   SliceValues values;
 };
 
-// An open image, read once from the first slice to the last. Memory is proportional to a slice,
-// never to the file; README.md names the one exception.
+// An open image, read once from the first slice to the last. Memory is proportional to a slice, for
+// images in chunks to a slab of slices, never to the file; README.md names the one exception.
 class ImageSource {
  public:
   virtual ~ImageSource() = default;

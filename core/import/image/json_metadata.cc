@@ -14,6 +14,8 @@ namespace {
 
 using Json = nlohmann::json;
 
+constexpr int kMostNested = 64;
+
 template <typename Item>
 absl::StatusOr<std::vector<Item>> ListOf(std::string_view what, const Json& value,
                                          absl::StatusOr<Item> (*read)(std::string_view,
@@ -37,7 +39,17 @@ absl::StatusOr<std::optional<Json>> ReadJson(const std::string& path, const Imag
     return absl::ResourceExhaustedError(
         absl::StrFormat("'%s' has more than %d bytes", path, limits.max_header_bytes));
   }
-  Json json = Json::parse(front.bytes, nullptr, /*allow_exceptions=*/false);
+  // Copies and messages would recurse as deep as the values are nested.
+  bool too_deep = false;
+  const auto keep = [&](int depth, Json::parse_event_t, const Json&) {
+    too_deep = too_deep || depth > kMostNested;
+    return !too_deep;
+  };
+  Json json = Json::parse(front.bytes, keep, /*allow_exceptions=*/false);
+  if (too_deep) {
+    return absl::InvalidArgumentError(
+        absl::StrFormat("'%s' has values nested more than %d deep", path, kMostNested));
+  }
   if (json.is_object()) return json;
   return absl::InvalidArgumentError(absl::StrFormat("'%s' is not a JSON object", path));
 }

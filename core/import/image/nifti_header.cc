@@ -127,7 +127,9 @@ absl::StatusOr<Placement> PlacementOfQform(const Fields& fields,
                                            const std::array<double, 3>& spacing) {
   const auto q = [&fields](size_t n) { return fields.Float(fields.layout().quaternion, n); };
   const auto at = [&fields](size_t n) { return fields.Float(fields.layout().qoffset, n); };
-  const double b = q(0), c = q(1), d = q(2);
+  // Rounding may make it longer than 1.
+  const double length = std::max(1.0, std::hypot(q(0), q(1), q(2)));
+  const double b = q(0) / length, c = q(1) / length, d = q(2) / length;
   const double a = std::sqrt(std::max(0.0, 1 - (b * b + c * c + d * d)));
   const double handedness = fields.Float(fields.layout().pixdim) < 0 ? -1 : 1;
   std::array<WorldPoint, 3> steps = {{

@@ -188,6 +188,15 @@ absl::StatusOr<CommonUnit> NrrdUnitOf(const HeaderFields& fields, const AxisFiel
       "'space units'");
 }
 
+// Where a file states the steps of two axes only.
+WorldPoint UnitNormalOf(const WorldPoint& a, const WorldPoint& b) {
+  const WorldPoint normal = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+                             a[0] * b[1] - a[1] * b[0]};
+  const double length = std::hypot(normal[0], normal[1], normal[2]);
+  if (length == 0) return {0, 0, 1};
+  return {normal[0] / length, normal[1] / length, normal[2] / length};
+}
+
 absl::StatusOr<Placement> NrrdPlacementOf(const HeaderFields& fields, const AxisFields& axes,
                                           const CommonUnit& unit) {
   WorldPoint origin = {0, 0, 0};
@@ -210,7 +219,10 @@ absl::StatusOr<Placement> NrrdPlacementOf(const HeaderFields& fields, const Axis
                       "has no direction for one of the first three axes");
     }
     steps[axis] = *axes.steps[axis];
-    for (size_t n = 0; n < 3; ++n) steps[axis][n] *= unit.factors[n];
+  }
+  if (axes.steps.size() == 2) steps[2] = UnitNormalOf(steps[0], steps[1]);
+  for (WorldPoint& step : steps) {
+    for (size_t n = 0; n < 3; ++n) step[n] *= unit.factors[n];
   }
   return PlacementOfSteps(steps, origin);
 }

@@ -77,7 +77,8 @@ struct PngLayout {
   VoxelType type = VoxelType::kUint8;
   size_t colors = 1;  // samples of a pixel that must be equal
   bool alpha = false;
-  int passes = 1;  // above 1: every pass touches all rows
+  std::optional<unsigned> clear;  // a gray level that means transparent
+  int passes = 1;                 // above 1: every pass touches all rows
   size_t row_bytes = 0;
 };
 
@@ -95,6 +96,11 @@ absl::StatusOr<PngLayout> LayoutOf(PngClient& client) {
   const int colors = png_get_color_type(png, info);
   if (png_get_bit_depth(png, info) == 16) layout.type = VoxelType::kUint16;
   layout.alpha = (colors & PNG_COLOR_MASK_ALPHA) != 0;
+  png_color_16p clear = nullptr;
+  if (colors == PNG_COLOR_TYPE_GRAY &&
+      png_get_tRNS(png, info, nullptr, nullptr, &clear) == PNG_INFO_tRNS && clear != nullptr) {
+    layout.clear = clear->gray;
+  }
   const bool red = (colors & PNG_COLOR_MASK_COLOR) != 0 && colors != PNG_COLOR_TYPE_PALETTE;
   layout.colors = red ? 3 : 1;
   return layout;
@@ -147,6 +153,7 @@ absl::Status TakeGray(const std::byte* row, const PngLayout& layout, int32_t y, 
     std::memcpy(pixel.data(), row, samples * sizeof(T));
     const bool gray = layout.colors == 1 || (pixel[0] == pixel[1] && pixel[0] == pixel[2]);
     if (!gray) return ColoredError(x, y, std::array<unsigned, 3>{pixel[0], pixel[1], pixel[2]});
+    if (pixel[0] > 0 && layout.clear == pixel[0]) return TransparentError(x, y, 0);
     const T alpha = layout.alpha ? pixel[layout.colors] : std::numeric_limits<T>::max();
     const bool opaque = alpha == std::numeric_limits<T>::max();
     if (!opaque && (alpha > 0 || pixel[0] > 0)) return TransparentError(x, y, alpha);

@@ -13,6 +13,8 @@
 namespace bccskel {
 namespace {
 
+constexpr size_t kReadAtOnce = size_t{1} << 20;  // bytes of columns, if a column is shorter
+
 absl::Status CheckLength(const StoredImage& image) {
   const uint64_t declared = image.VoxelBytesDeclared();
   const uint64_t rest = image.file->size() - std::min(image.stream_offset, image.file->size());
@@ -116,22 +118,24 @@ class ZFastestSource : public StoredSource {
     first_ = z;
     count_ = static_cast<int32_t>(std::min<uint64_t>(fitting, static_cast<uint64_t>(size.nz - z)));
     slab_.resize(static_cast<size_t>(static_cast<uint64_t>(count_) * slice_bytes));
-    column_.resize(static_cast<size_t>(size.nz) * VoxelBytes(image_.stored_type));
-    // Then y, and x is slowest.
-    for (int32_t x = 0; x < size.nx; ++x) {
-      for (int32_t y = 0; y < size.ny; ++y) {
-        BCCSKEL_RETURN_IF_ERROR(ReadWhole(*stream_, column_, z));
-        ScatterColumn(static_cast<size_t>(y) * static_cast<size_t>(size.nx) +
-                      static_cast<size_t>(x));
+    const size_t column = static_cast<size_t>(size.nz) * VoxelBytes(image_.stored_type);
+    const size_t at_once = std::max<size_t>(1, kReadAtOnce / column);
+    const auto nx = static_cast<size_t>(size.nx), ny = static_cast<size_t>(size.ny);
+    for (size_t first = 0; first < nx * ny; first += at_once) {
+      columns_.resize(std::min(at_once, nx * ny - first) * column);
+      BCCSKEL_RETURN_IF_ERROR(ReadWhole(*stream_, columns_, z));
+      for (size_t n = 0; n * column < columns_.size(); ++n) {
+        const size_t x = (first + n) / ny, y = (first + n) % ny;  // x is slowest
+        ScatterColumn(columns_.data() + n * column, y * nx + x);
       }
     }
     return absl::OkStatus();
   }
 
-  void ScatterColumn(size_t at) {
+  void ScatterColumn(const std::byte* column, size_t at) {
     const size_t bytes = VoxelBytes(image_.stored_type);
     const size_t slice_bytes = info_.size.SliceVoxels() * bytes;
-    const std::byte* from = column_.data() + static_cast<size_t>(first_) * bytes;
+    const std::byte* from = column + static_cast<size_t>(first_) * bytes;
     std::byte* to = slab_.data() + at * bytes;
     for (int32_t n = 0; n < count_; ++n, from += bytes, to += slice_bytes) {
       std::memcpy(to, from, bytes);
@@ -142,7 +146,7 @@ class ZFastestSource : public StoredSource {
   int32_t first_ = 0;
   int32_t count_ = 0;
   exec::UninitializedVector<std::byte> slab_;
-  exec::UninitializedVector<std::byte> column_;
+  exec::UninitializedVector<std::byte> columns_;
 };
 
 }  // namespace

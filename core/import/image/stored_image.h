@@ -18,8 +18,8 @@ namespace bccskel {
 // Which axis varies fastest in the file.
 enum class VoxelOrder { kXFastest, kZFastest };
 
-// What every format but TIFF comes down to: one array of voxels in one stream of bytes. The readers
-// of headers fill it in; from there on all formats share one way.
+// What most formats come down to: one array of voxels in one stream of bytes. The readers of
+// headers fill it in; from there on these formats share one way.
 struct StoredImage {
   ImageInfo info;
   VoxelType stored_type = VoxelType::kUint8;

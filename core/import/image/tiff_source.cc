@@ -92,12 +92,15 @@ absl::StatusOr<Placement> PlacementOf(TIFF* tiff, const TiffStack& stack) {
     const float resolution = TagOr<float>(tiff, tag, 1.0F);
     return resolution > 0 ? 1 / static_cast<double>(resolution) : 1.0;
   };
-  const bool imagej = !stack.spacing[0].has_value();
-  return PlacementOfSpacing(
-      {imagej ? per_unit(TIFFTAG_XRESOLUTION) : *stack.spacing[0],
-       imagej ? per_unit(TIFFTAG_YRESOLUTION) : stack.spacing[1].value_or(*stack.spacing[0]),
-       stack.spacing[2].value_or(1)},
-      {0, 0, 0});
+  std::array<std::optional<double>, 3> spacing = stack.spacing;
+  if (stack.has_resolution_tags) {
+    spacing[0] = stack.factors[0] * per_unit(TIFFTAG_XRESOLUTION);
+    spacing[1] = stack.factors[1] * per_unit(TIFFTAG_YRESOLUTION);
+  }
+  // Pixels are mostly square.
+  return PlacementOfSpacing({spacing[0].value_or(spacing[1].value_or(1)),
+                             spacing[1].value_or(spacing[0].value_or(1)), spacing[2].value_or(1)},
+                            {0, 0, 0});
 }
 
 // Ratios that a stream of these compressions cannot exceed, so that a small file cannot ask for

@@ -67,7 +67,7 @@ absl::StatusOr<TiffStack> ImageJStack(std::string_view description, int64_t page
                                       const ImageOptions& options) {
   int64_t images = 1, channels = 1, slices = 0, frames = 1;
   double spacing = 1;
-  std::string_view unit;
+  std::array<std::optional<std::string>, 3> units;  // that of x is that of all which state none
   for (const std::string_view line : Words(description)) {
     const auto field = SplitAt(line, "=");
     if (!field.has_value()) continue;
@@ -77,7 +77,9 @@ absl::StatusOr<TiffStack> ImageJStack(std::string_view description, int64_t page
     if (key == "slices") slices = CountOr(value, 0);
     if (key == "frames") frames = CountOr(value, 0);
     if (key == "spacing") spacing = ParseNumber<double>(value).value_or(1);
-    if (key == "unit" && value != "inch") unit = value;
+    if (key == "unit" && value != "inch") units[0] = value;
+    if (key == "yunit") units[1] = value;
+    if (key == "zunit") units[2] = value;
   }
   if (pages == 1 && images > 1) {
     return absl::UnimplementedError(absl::StrFormat(
@@ -89,8 +91,13 @@ absl::StatusOr<TiffStack> ImageJStack(std::string_view description, int64_t page
   if (slices == 0) slices = 1;
   BCCSKEL_ASSIGN_OR_RETURN(TiffStack stack,
                            Select({{'C', channels}, {'Z', slices}, {'T', frames}}, pages, options));
-  stack.unit = UnitNamed(unit);
-  if (!unit.empty()) stack.spacing[2] = spacing;
+  if (!units[0].has_value() || units[0]->empty()) return stack;
+  for (std::optional<std::string>& unit : units) unit = unit.value_or(*units[0]);
+  BCCSKEL_ASSIGN_OR_RETURN(const CommonUnit common, CommonUnitOf(units));
+  stack.unit = common.unit;
+  stack.factors = common.factors;
+  stack.spacing[2] = spacing * common.factors[2];
+  stack.has_resolution_tags = true;
   return stack;
 }
 
@@ -104,16 +111,20 @@ std::optional<std::string_view> Attribute(std::string_view tag, std::string_view
   return end == value.npos ? std::nullopt : std::optional(value.substr(0, end));
 }
 
-// The text of the first tag of a name, from behind the name on.
+// The text of the first tag of a name, which may have a prefix (ome:Pixels), from behind the name
+// on.
 std::optional<std::string_view> TagOf(std::string_view xml, std::string_view name) {
-  const std::string opening = absl::StrFormat("<%s ", std::string(name));
-  const size_t at = xml.find(opening);
-  if (at == xml.npos) return std::nullopt;
-  const std::string_view tag = xml.substr(at + opening.size() - 1);
-  return tag.substr(0, tag.find('>'));
+  for (size_t at = xml.find(name); at != xml.npos; at = xml.find(name, at + 1)) {
+    const std::string_view tag = xml.substr(at + name.size());
+    const size_t opened = xml.substr(0, at).find_last_of("< />\"'");
+    const bool opens =
+        opened != xml.npos && xml[opened] == '<' && (opened + 1 == at || xml[at - 1] == ':');
+    if (opens && (tag.starts_with(' ') || tag.starts_with('>')))
+      return tag.substr(0, tag.find('>'));
+  }
+  return std::nullopt;
 }
 
-// Z may be unknown where there is one slice.
 absl::Status TakePhysicalSize(std::string_view pixels, TiffStack& stack) {
   std::array<std::optional<std::string>, 3> units;
   for (size_t axis = 0; axis < 3; ++axis) {
@@ -246,8 +257,7 @@ absl::StatusOr<TiffStack> ShapedStack(std::string_view json, int64_t pages,
 absl::StatusOr<TiffStack> TiffStackOf(std::string_view description, int64_t pages,
                                       const ImageOptions& options) {
   if (description.starts_with("ImageJ=")) return ImageJStack(description, pages, options);
-  const bool xml = description.starts_with("<?xml") || description.starts_with("<OME");
-  if (xml && description.find("<OME") != description.npos) {
+  if (description.starts_with('<') && TagOf(description, "OME").has_value()) {
     return OmeStack(description, pages, options);
   }
   if (description.starts_with("{") && !JsonValue(description, "shape").empty()) {

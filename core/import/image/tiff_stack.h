@@ -19,8 +19,10 @@ struct TiffStack {
   int64_t page_step = 1;
   std::string unit;
   // Of what the description states; nothing where it states none. ImageJ states z alone and leaves
-  // x and y to the resolution tags.
+  // x and y to the resolution tags, in lengths of `factors`.
   std::array<std::optional<double>, 3> spacing = {};
+  bool has_resolution_tags = false;
+  std::array<double, 3> factors = {1, 1, 1};
 };
 
 // Reads the first page's description as ImageJ, OME or tifffile ("shaped") write it; any other text

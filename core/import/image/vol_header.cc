@@ -37,7 +37,7 @@ absl::StatusOr<Placement> PlacementOf(const HeaderFields& fields, const ImageSiz
   for (size_t axis = 0; axis < 3; ++axis) {
     BCCSKEL_ASSIGN_OR_RETURN(const int64_t center, CountOf(fields, kCenters[axis]));
     const int32_t middle = (lengths[axis] - 1) / 2;
-    placement.origin[axis] = static_cast<double>(center - middle);
+    placement.origin[axis] = static_cast<double>(center) - middle;
   }
   return placement;
 }

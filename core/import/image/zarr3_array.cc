@@ -195,6 +195,7 @@ class CodecReader {
 
   // The index is read with the codecs that are usual, and not with others.
   static absl::Status ReadIndex(const Json& codecs, ZarrShards& shards) {
+    if (!codecs.is_array()) return BadValue("index_codecs", codecs, "is not a list");
     std::vector<std::string> names;
     for (const Json& codec : codecs) {
       BCCSKEL_ASSIGN_OR_RETURN(names.emplace_back(), ExtensionName("an index codec's name", codec));

@@ -102,6 +102,29 @@ TEST(OpenImage, GivesTurnedNiftiTheSpacingOfItsPixdim) {
   }
 }
 
+TEST(OpenImage, TurnsNiftiByAQuaternionLongerThanOne) {
+  std::string header = testing::Nifti1Header();
+  const auto put = [&](size_t at, const std::string& value) {
+    header.replace(at, value.size(), value);
+  };
+  put(252, Bytes<int16_t>(1) + Bytes<int16_t>(0));
+  put(256, Bytes(1.2F) + Bytes(0.0F) + Bytes(0.0F));  // half a turn about x
+  const auto image = ReadBytes(header + Counting<uint8_t>(12));
+  ASSERT_TRUE(image.ok()) << image.status();
+  EXPECT_THAT(image->info.placement.spacing, ElementsAre(1, 2, 3));
+  EXPECT_THAT(image->info.placement.direction, ElementsAre(1, 0, 0, 0, -1, 0, 0, 0, -1));
+}
+
+TEST(OpenImage, ReadsNrrdOfOneSliceAnywhereInSpace) {
+  const auto image = ReadBytes(
+      "NRRD0004\ntype: uint8\ndimension: 2\nsizes: 3 2\nspace: RAS\nencoding: raw\n"
+      "space directions: (0,0.5,0) (0,0,0.25)\n\n" +
+      Counting<uint8_t>(6));
+  ASSERT_TRUE(image.ok()) << image.status();
+  EXPECT_THAT(image->info.placement.spacing, ElementsAre(0.5, 0.25, 1));
+  EXPECT_THAT(image->info.placement.direction, ElementsAre(0, 0, 1, 1, 0, 0, 0, 1, 0));
+}
+
 TEST(OpenImage, ReadsNiftiOfOneSliceWithoutADistanceToTheNext) {
   std::string header = testing::Nifti1Header();
   header.replace(46, 2, Bytes<int16_t>(1));

@@ -19,6 +19,7 @@ struct PngPicture {
   int color = PNG_COLOR_TYPE_GRAY;
   int interlace = PNG_INTERLACE_NONE;
   std::vector<uint16_t> samples;
+  int clear = -1;  // the gray level that means transparent
 };
 
 inline void AppendBits(std::string& row, size_t& bit, uint16_t value, int bits) {
@@ -45,6 +46,9 @@ inline std::string PngBytes(const PngPicture& picture) {
     const std::vector<png_color> palette(size_t{1} << picture.bits, png_color{9, 9, 9});
     png_set_PLTE(png, info, palette.data(), static_cast<int>(palette.size()));
   }
+  png_color_16 clear = {};
+  clear.gray = static_cast<uint16_t>(picture.clear);
+  if (picture.clear >= 0) png_set_tRNS(png, info, nullptr, 0, &clear);
   const size_t row_samples = picture.samples.size() / picture.height;
   std::vector<std::string> rows(picture.height);
   std::vector<png_bytep> starts;

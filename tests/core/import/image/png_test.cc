@@ -77,6 +77,9 @@ TEST(Png, RefusesColorsAndTransparencyWithTheirPlace) {
       HasSubstr("pixel (0, 1) is transparent (alpha 0), so its value is not certain: remove "
                 "the transparency (ImageMagick: convert IN.png -background black -alpha "
                 "remove -alpha off OUT.png), or, if it is the mask, take it (-alpha extract)"));
+  EXPECT_THAT(ErrorOfBytes(PngBytes({.width = 1, .samples = {5, 7}, .clear = 7})),
+              HasSubstr("pixel (0, 1) is transparent (alpha 0)"));
+  EXPECT_TRUE(ReadBytes(PngBytes({.width = 1, .samples = {5, 7}, .clear = 0})).ok());
 }
 
 TEST(Png, TransparentBlackIsBackground) {

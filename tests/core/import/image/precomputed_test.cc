@@ -179,6 +179,9 @@ TEST(Precomputed, RefusesWhatIsNotRead) {
   EXPECT_THAT(error_of("\"raw\"", "\"jpeg\""), HasSubstr("encoding 'jpeg' is not supported"));
   EXPECT_THAT(error_of("\"num_channels\":1", "\"num_channels\":3"), HasSubstr("only one channel"));
   EXPECT_THAT(error_of("multiscale_volume", "skeletons"), HasSubstr("not that of a volume"));
+  const std::string deep(400'000, '[');
+  EXPECT_THAT(error_of("\"neuroglancer_multiscale_volume\"", deep + std::string(deep.size(), ']')),
+              HasSubstr("has values nested more than 64 deep"));
   EXPECT_THAT(error_of("uint64", "uint63"), HasSubstr("'uint63' is not a voxel type"));
   EXPECT_THAT(error_of("8_8_40", "../x"), HasSubstr("not that of a folder in this one"));
   EXPECT_THAT(error_of("[5,3,4]", "[5,3]"), HasSubstr("size has 2 numbers"));

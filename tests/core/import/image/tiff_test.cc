@@ -163,6 +163,28 @@ TEST(Tiff, TakesThePhysicalSizeOfOme) {
   EXPECT_EQ(image->info.unit, "um");
 }
 
+TEST(Tiff, TakesWhatOmeStatesOfThePhysicalSizeAndNoResolutionTags) {
+  const std::string pixels = "DimensionOrder=\"XYZCT\" SizeZ=\"2\" SizeC=\"1\" SizeT=\"1\" ";
+  const auto spacing_of = [](const std::string& description) {
+    const auto image = ReadBytes(TiffBytes({.description = description.c_str()}));
+    EXPECT_TRUE(image.ok()) << image.status();
+    return image.ok() ? image->info.placement.spacing : std::array<double, 3>{};
+  };
+  EXPECT_THAT(spacing_of(Ome(pixels + "PhysicalSizeZ=\"1.5\"")), ElementsAre(1, 1, 1.5));
+  EXPECT_THAT(spacing_of(Ome(pixels + "PhysicalSizeY=\"0.2\"")), ElementsAre(0.2, 0.2, 1));
+  EXPECT_THAT(spacing_of("<ome:OME xmlns:ome=\"x\"><ome:Image><ome:Pixels " + pixels +
+                         "PhysicalSizeX=\"0.2\" PhysicalSizeZ=\"1.5\"/></ome:Image></ome:OME>"),
+              ElementsAre(0.2, 0.2, 1.5));
+}
+
+TEST(Tiff, ConvertsTheUnitsOfImageJToOne) {
+  const auto stack = ReadBytes(TiffBytes({.description = "ImageJ=1.53\nimages=2\nslices=2\nunit=nm"
+                                                         "\nzunit=um\nspacing=1.5\n"}));
+  ASSERT_TRUE(stack.ok()) << stack.status();
+  EXPECT_THAT(stack->info.placement.spacing, ElementsAre(0.25, 0.5, 1500));
+  EXPECT_EQ(stack->info.unit, "nm");
+}
+
 TEST(Tiff, TakesSpacingAndUnitFromImageJOnly) {
   const auto plain = ReadBytes(TiffBytes({}));
   ASSERT_TRUE(plain.ok()) << plain.status();

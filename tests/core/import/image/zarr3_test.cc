@@ -283,6 +283,7 @@ TEST(Zarr3, RefusesMetadataThatIsNotRead) {
               HasSubstr("neither little nor big"));
   EXPECT_THAT(codecs_error(Sharding(R"("index_codecs":["bytes","gzip"])")),
               HasSubstr("index_codecs"));
+  EXPECT_THAT(codecs_error(Sharding(R"("index_codecs":"bytes")")), HasSubstr("is not a list"));
   EXPECT_THAT(codecs_error(Sharding(R"("index_location":"middle",)" + kIndexed)),
               HasSubstr("neither start nor end"));
   EXPECT_THAT(codecs_error(Sharding(kIndexed) + R"(,"gzip")"), HasSubstr("sharding_indexed"));
