@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/pruning/collar.h"
 #include "core/pruning/junction_ball.h"
 #include "core/pruning/square_end.h"
 #include "core/pruning/trunk.h"
@@ -86,6 +87,7 @@ double Significance::Of(const ThinSet& set, const FreeBranch& branch) {
       LeadsIntoCornerOfStrip(set, branch, sections_)) {
     return kLeastCorner;
   }
+  if (value >= kLeastCorner && LeadsIntoCollar(set, branch, sections_)) return kLeastRatio;
   if (value >= kSureRatio || !MayHaveBodyEnds(set.RadiusOf(*branch.junction))) return value;
   return std::max(value, OfBodyEnd(set, branch, value));
 }

@@ -173,5 +173,34 @@ TEST(Ribs, HaveLevelsThatTellWhatEveryThresholdLeaves) {
   }
 }
 
+// Disks around a shaft, away from its ends. Where in them a curve ended was arbitrary.
+TEST(Ribs, OfCollarsAlongAShaftGo) {
+  constexpr double kShaft = 12, kHalfThick = 4, kHalfLength = 90;
+  for (const double radius : {32.0, 48.0}) {
+    for (const double turn : {0.0, 0.3, 0.8, 1.2}) {
+      const Volume object = Turned(kHalfLength + 10, turn, [&](double x, double y, double z) {
+        const double off = std::hypot(x, y);
+        const bool in_collar = std::abs(std::abs(z) - 20) <= kHalfThick && off <= radius;
+        return in_collar || (off <= kShaft && std::abs(z) <= kHalfLength);
+      });
+      EXPECT_EQ(EndsOf(object), 2u) << radius << ' ' << turn;
+    }
+  }
+}
+
+// Four blades, which leave gaps between them, are limbs.
+TEST(Ribs, AreNotTheBladesOnAShaft) {
+  constexpr double kShaft = 10, kHalfThick = 5, kHalfLength = 60, kReach = 50;
+  for (const double turn : {0.0, 0.3, 1.2}) {
+    const Volume object = Turned(kHalfLength + 5, turn, [&](double x, double y, double z) {
+      const bool in_blade =
+          std::min(std::abs(x), std::abs(y)) <= 6 && std::max(std::abs(x), std::abs(y)) <= kReach;
+      return (in_blade && std::abs(z) <= kHalfThick) ||
+             (std::hypot(x, y) <= kShaft && std::abs(z) <= kHalfLength);
+    });
+    EXPECT_EQ(EndsOf(object), 6u) << turn;
+  }
+}
+
 }  // namespace
 }  // namespace bccskel
