@@ -174,7 +174,9 @@ Flow DurableJobs::StoreResult(std::shared_ptr<Run> run, ResultRow row) {
     return absl::OkStatus();
   };
   while (!(co_await Commit(change, GroupCommit::Room::kReserve)).ok()) {
-    if (!co_await Later()) co_return;
+    if (co_await Later()) continue;
+    if (!stopping_) RemoveResult(row, blobs_, quota_);  // others have taken over the job
+    co_return;
   }
   if (needless) {
     RemoveResult(row, blobs_, quota_);
