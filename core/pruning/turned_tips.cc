@@ -48,7 +48,7 @@ void TurnedTips::Note(const ThinSet& set, const FreeBranch& going,
   std::erase_if(arms, [&](const Arm& arm) { return arm.points.back() == going.points[0]; });
   if (arms.size() != 2 || (!arms[0].is_free && !arms[1].is_free)) return;
   std::array<double, 2> worths = {};  // of those that are free
-  for (const size_t n : {0, 1}) {
+  for (size_t n = 0; n < 2; ++n) {
     const Arm& arm = arms[n];
     if (arm.is_free) worths[n] = worth_of({{arm.points.rbegin(), arm.points.rend()}, arm.fork});
   }
