@@ -25,7 +25,7 @@ bool LeadsIntoCollar(const ThinSet& set, const FreeBranch& branch, CrossSections
   const LatticePoint junction = *branch.junction, end = branch.points[0];
   const double shaft = set.RadiusOf(junction);
   const double reach = set.Between(junction, end) + set.RadiusOf(end);
-  if (shaft > kMostShaft * reach) return false;
+  if (reach > kLongestCompared || shaft > kMostShaft * reach) return false;
   const auto outside = std::ranges::find_if(branch.points, [&](LatticePoint p) {
     return set.Between(p, junction) < (shaft + reach) / 2;
   });

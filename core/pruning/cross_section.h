@@ -58,6 +58,10 @@ struct CrossSection {
   double WiderThanThick() const { return std::max(half_width - radius, 0.0); }
 };
 
+// Longer branches are not compared with what is around them. Where one axis is very long, lines of
+// more steps of a unit would take too long.
+inline constexpr double kLongestCompared = 2000;  // lattice units
+
 // Measures how wide the object is across a branch, by lines that end where they leave it.
 // Threads: one thread per instance.
 class CrossSections {

@@ -32,7 +32,7 @@ bool LeadsIntoCornerOfStrip(const ThinSet& set, const FreeBranch& branch, CrossS
   const LatticePoint end = branch.points[0];
   for (const Arm& twin : ArmsOf(set, cluster)) {
     const LatticePoint other = twin.points.back(), fork = twin.fork;
-    if (!twin.is_free || other == end) continue;
+    if (!twin.is_free || other == end || set.Between(end, other) > kLongestCompared) continue;
     const auto [shorter, longer] = std::minmax({set.Between(end, fork), set.Between(other, fork)});
     if (shorter < kAsLong * longer || !IsInside(set, end, other, fork, sections)) continue;
     const Coordinates behind = Sum(set.Way(end, fork), 1, set.Way(other, fork));
