@@ -286,8 +286,7 @@ void AddSwcStep(CLI::App& command, exporting::CurveSampling& sampling) {
           "--swc-step", sampling.step,
           "Distance between SWC points along the smooth curve, in world units; 0: the lattice "
           "points, not smoothed (default: twice the smallest spacing, or an eighth of the largest "
-          "if "
-          "that is more)")
+          "if that is more)")
       ->check(Within(0, std::numeric_limits<double>::max()))
       ->option_text("LENGTH");
 }

@@ -37,6 +37,7 @@ namespace bccskel {
 //        best run of the later half of a run is evaluated in the same way, and so on, and so is the
 //        best run before it; the largest result counts. The end of a body that thin limbs leave
 //        before it has a significance of its own (OfBodyEnd()), which counts if it is larger.
+//        Branches into corners of strips and into collars around shafts get a fixed, small value.
 // Why:   the significance is a ratio of lengths of the shape, in which only the noise depends on
 //        the sampling. So it is the same at any resolution and in any pose.
 // Cost:  48 points of the branch for each of its runs, one or several. For a run that may be the
@@ -72,10 +73,10 @@ class Significance {
   void Forget() { verdicts_ = {}; }
   // Uses these balls instead of indexing those of the set at the first use.
   void Share(const BallIndex& balls) { balls_ = balls; }
-  // The significance of a branch as the end of a body (IsBodyEnd()), a lower bound of Of(): how far
-  // it sticks out of the ball at its junction, relative to that ball's radius and the width, as
-  // above. -infinity if the branch is not the end of a body, the ball is too small, or the value is
-  // at most `least` or 0.2. Needs: as Of().
+  // The significance of a branch as the end of a body (IsBodyEnd()), which counts in Of() where
+  // MayHaveBodyEnds(): how far it sticks out of the ball at its junction, relative to that ball's
+  // radius and the width, as above. -infinity if the branch is not the end of a body, or the value
+  // is at most `least` or 0.2. Needs: as Of().
   double OfBodyEnd(const ThinSet& set, const FreeBranch& branch,
                    double least = -std::numeric_limits<double>::infinity());
   // Whether a ball of this radius at a junction is at least `least` times the noise and the margin.
