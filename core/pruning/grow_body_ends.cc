@@ -32,7 +32,8 @@ constexpr double kThinnerAhead = 0.7, kAboutAsThick = 0.92, kThickBehind = 0.85;
 // Where a body may have an end: at a junction, or where a curve turns from it into a limb.
 struct Place {
   LatticePoint center;
-  std::optional<LatticePoint> limb;  // the end to which the curve leads, if it is free
+  bool is_turn = false;
+  std::optional<LatticePoint> limb;  // the end to which the curve turns, if it is free
 };
 
 class BodyEnds {
@@ -64,7 +65,7 @@ class BodyEnds {
       path_ = ball.WayTo(start);
       own_ = path_.size();
       const bool left = Follow(ball, on, beside, body);
-      if (left && IsSignificant() && LeavesALimb(place)) {
+      if (left && IsSignificant(place) && LeavesALimb(place)) {
         MeasureGrown();
         return true;
       }
@@ -121,10 +122,12 @@ class BodyEnds {
     return left;
   }
 
-  bool IsSignificant() {
+  bool IsSignificant(const Place& place) {
     if (path_.size() == own_) return false;
+    using BodyAt = Significance::BodyAt;
+    const BodyAt at = place.is_turn ? BodyAt::kTurn : BodyAt::kJunction;
     const FreeBranch branch = BranchFrom(set_, path_.back());
-    return branch.junction.has_value() && significance_.OfBodyEnd(set_, branch) >= threshold_;
+    return branch.junction.has_value() && significance_.OfBodyEnd(set_, branch, at) >= threshold_;
   }
 
   // Else the curve only turned into a corner of the end.
@@ -190,7 +193,7 @@ std::vector<Place> JunctionsOf(const ThinSet& set, const Significance& significa
     const std::vector<LatticePoint> junction = JunctionAt(p, set, in_surface);
     if (junction.empty()) continue;
     const auto radius = [&](LatticePoint q) { return set.RadiusOf(q); };
-    deepest.push_back({*std::ranges::max_element(junction, {}, radius), std::nullopt});
+    deepest.push_back({*std::ranges::max_element(junction, {}, radius), false, std::nullopt});
   }
   return deepest;
 }
@@ -218,7 +221,7 @@ void AddTurnsOf(std::span<const LatticePoint> curve, const ThinSet& set,
     while (before > 0 && !exit_at(last, before)) --before;
     const bool from_body = exit_at(last, before) &&
                            set.RadiusOf(curve[before]) >= kThickBehind * set.RadiusOf(curve[last]);
-    if (from_body) turns.push_back({curve[last], limb});
+    if (from_body) turns.push_back({curve[last], true, limb});
     n = exit;
   }
 }

@@ -61,15 +61,16 @@ std::vector<LatticePoint> JunctionBall::WayTo(size_t visited) const {
   return way;
 }
 
-bool IsBodyEnd(const ThinSet& set, const FreeBranch& branch) {
+bool IsBodyEnd(const ThinSet& set, const FreeBranch& branch, bool may_end_inside) {
   const LatticePoint junction = *branch.junction;
   if (!set.Branches(junction)) return false;
   const double radius = set.RadiusOf(junction);
   const auto exit = std::find_if(branch.points.rbegin(), branch.points.rend(), [&](LatticePoint p) {
     return set.Between(junction, p) >= JunctionBall::kExit * radius;
   });
-  if (exit == branch.points.rend()) return false;
-  const double own = set.RadiusOf(*exit);
+  const bool ends_inside = exit == branch.points.rend();
+  if (ends_inside && !may_end_inside) return false;
+  const double own = set.RadiusOf(ends_inside ? branch.points[0] : *exit);
   if (own < kLeastRadius * radius) return false;
   const JunctionBall ball(set, junction, branch.points);
   return !ball.exits().empty() && ball.ThickestLimb(set) <= kThinnerLimb * own;

@@ -50,8 +50,9 @@ class JunctionBall {
 
 // Whether a branch is an end of the body itself, beyond thinner limbs, such as a snout beyond two
 // ears: except for the body, no other branch that leaves the ball at the junction is as thick.
+// `may_end_inside`: whether it may end within the ball; its end is compared then.
 // Needs: the branch has a junction.
-bool IsBodyEnd(const ThinSet& set, const FreeBranch& branch);
+bool IsBodyEnd(const ThinSet& set, const FreeBranch& branch, bool may_end_inside);
 
 }  // namespace bccskel
 

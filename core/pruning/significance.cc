@@ -89,7 +89,7 @@ double Significance::Of(const ThinSet& set, const FreeBranch& branch) {
   }
   if (value >= kLeastCorner && LeadsIntoCollar(set, branch, sections_)) return kLeastRatio;
   if (value >= kSureRatio || !MayHaveBodyEnds(set.RadiusOf(*branch.junction))) return value;
-  return std::max(value, OfBodyEnd(set, branch, value));
+  return std::max(value, OfBodyEnd(set, branch, BodyAt::kJunction, value));
 }
 
 double Significance::BesideTrunk(const ThinSet& set, const BranchPath& path, const Run& run) {
@@ -114,7 +114,8 @@ bool Significance::LeadsBesideCut(const ThinSet& set, const FreeBranch& branch) 
 
 // A body that narrows falls short of a run: its radius falls twice as fast as along a limb. Limbs
 // that leave it show that its end is not just a corner, of which several would meet.
-double Significance::OfBodyEnd(const ThinSet& set, const FreeBranch& branch, double least) {
+double Significance::OfBodyEnd(const ThinSet& set, const FreeBranch& branch, BodyAt at,
+                               double least) {
   const LatticePoint junction = *branch.junction;
   const double radius = set.RadiusOf(junction);
   const auto sticks_out = [&](LatticePoint p, double depth) {
@@ -127,7 +128,7 @@ double Significance::OfBodyEnd(const ThinSet& set, const FreeBranch& branch, dou
   // The extension adds at most its length and the rise of its radius.
   constexpr double kMost = TipExtender::kLongest + TipExtender::kLargestRise;
   if (farthest + kMost <= std::max(least, kLeastRatio) * radius) return kNone;
-  if (!IsBodyEnd(set, branch)) return kNone;
+  if (!IsBodyEnd(set, branch, at == BodyAt::kTurn)) return kNone;
   BranchPath path = PathOf(set, branch);
   if (extender_.has_value()) extender_->Append(path);
   LatticePoint tip = junction;
@@ -141,12 +142,21 @@ double Significance::OfBodyEnd(const ThinSet& set, const FreeBranch& branch, dou
   if (out / radius <= least) return kNone;
   const size_t middle = branch.points.size() / 2;
   const LatticePoint p = branch.points[middle];
-  CrossSection section = sections_.Across(
-      PlaceOf(p, scale_), DirectionAt(branch.points, middle, scale_), set.RadiusOf(p), kLongestRay);
-  sections_.Refine(kLongestRay, section);
+  const bool beside = at == BodyAt::kTurn && LeavesTrunk(set, branch, sections_);
+  const double wider = WiderAcross(PlaceOf(p, scale_), DirectionAt(branch.points, middle, scale_),
+                                   set.RadiusOf(p), beside);
   const Run outer_half = {.from = middle, .to = branch.points.size()};
-  return out / (radius + kWidthShare * section.WiderThanThick()) *
-         UncoveredShare(set, branch, outer_half);
+  return out / (radius + kWidthShare * wider) * UncoveredShare(set, branch, outer_half);
+}
+
+double Significance::WiderAcross(const Coordinates& middle, const Coordinates& way, double radius,
+                                 bool beside) {
+  if (beside) {
+    return std::max(sections_.NarrowerSide(middle, way, radius, kLongestRay) - radius, 0.0);
+  }
+  CrossSection section = sections_.Across(middle, way, radius, kLongestRay);
+  sections_.Refine(kLongestRay, section);
+  return section.WiderThanThick();
 }
 
 bool Significance::MayHaveBodyEnds(double radius, double least) const {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <span>
@@ -73,11 +74,14 @@ class Significance {
   void Forget() { verdicts_ = {}; }
   // Uses these balls instead of indexing those of the set at the first use.
   void Share(const BallIndex& balls) { balls_ = balls; }
+  // Where a body has an end: where a curve turns from it into a limb, the end may lie within the
+  // ball, and only the side without the limb shows how wide the body is.
+  enum class BodyAt : uint8_t { kJunction, kTurn };
   // The significance of a branch as the end of a body (IsBodyEnd()), which counts in Of() where
   // MayHaveBodyEnds(): how far it sticks out of the ball at its junction, relative to that ball's
   // radius and the width, as above. -infinity if the branch is not the end of a body, or the value
   // is at most `least` or 0.2. Needs: as Of().
-  double OfBodyEnd(const ThinSet& set, const FreeBranch& branch,
+  double OfBodyEnd(const ThinSet& set, const FreeBranch& branch, BodyAt at = BodyAt::kJunction,
                    double least = -std::numeric_limits<double>::infinity());
   // Whether a ball of this radius at a junction is at least `least` times the noise and the margin.
   static constexpr double kLeastBall = 2.5;
@@ -133,6 +137,8 @@ class Significance {
                       double width_near_tip) const;
   // An upper bound of ValueOf() without rays; it holds in floating point, too.
   double ValueAtMost(const ThinSet& set, const BranchPath& path, const Run& run) const;
+  // By how much the object is wider than the radius across a branch there.
+  double WiderAcross(const Coordinates& middle, const Coordinates& way, double radius, bool beside);
   double UncoveredShare(const ThinSet& set, const FreeBranch& branch, const Run& run);
   Sections SectionsAcross(const BranchPath& path, const Run& run, double reach);
   // The parts of the run, without widths and bounds.

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 
 #include "tests/quality/wild_growth.h"
+#include "tests/quality/wild_parts.h"
 #include "tests/quality/wild_sheets.h"
 
 namespace bccskel::quality {
@@ -14,13 +14,8 @@ namespace {
 using shapes::Unit;
 using Values = WildFigure::Values;
 
-constexpr double kPi = std::numbers::pi;
 constexpr Vector kOrigin = {0, 0, 0};
 constexpr double kThinnest = 1.5;  // radius of what any sampling still holds together
-
-Vector InPlane(double angle, double radius) {
-  return {radius * std::cos(angle), radius * std::sin(angle), 0};
-}
 
 Piece Ball(Vector center, double radius) { return {center, center, radius, radius}; }
 
@@ -161,39 +156,6 @@ Sketch Fish(Pen pen, const Values& v) {
     for (const double side : {-1.0, 1.0}) {
       fin({-3, 0, 0}, {-4.3, 0, side * 1.2}, 0.35, 0.3, {0, 1, 0});
     }
-  }
-  return sketch;
-}
-
-// A ring, or a bar, with teeth cut flat, as wide as it is thick: their count, width by thickness,
-// how far they stick out, in half their widths, ring or bar.
-Sketch Teeth(Pen pen, const Values& v) {
-  const double s = pen.size, out = v[2] * s, pitch = std::max(4.5 * s / v[1], 3 * s);
-  Sketch sketch;
-  const auto tooth = [&](Vector root, Vector way, Vector normal) {
-    sketch.AddLimb(CutAtEnd({root, root + (s + out) * way, s, s, v[1], normal}), out);
-  };
-  if (v[3] == 0) {
-    const double half = (v[0] + 1) * pitch / 2;
-    const Piece bar = {{-half, 0, 0}, {half, 0, 0}, s, s};
-    sketch.pieces = {bar};
-    sketch.AddTipOf(bar, 2 * s);
-    sketch.AddTipOf(Reversed(bar), 2 * s);
-    for (int n = 0; n < v[0]; ++n) {
-      tooth({-half + (n + 1) * pitch, 0, 0}, {0, 1, 0}, {1, 0, 0});
-    }
-    return sketch;
-  }
-  const double ring = v[0] * pitch / (2 * kPi), turn = pen.Between(0, 1);
-  constexpr int kParts = 48;
-  for (int n = 0; n < kParts; ++n) {
-    const double angle = 2 * kPi * n / kParts;
-    sketch.pieces.push_back({InPlane(angle, ring), InPlane(angle + 2 * kPi / kParts, ring), s, s});
-  }
-  for (int n = 0; n < v[0]; ++n) {
-    const double angle = 2 * kPi * (n + turn) / v[0];
-    const Vector way = InPlane(angle, 1);
-    tooth(ring * way, way, {-way.y, way.x, 0});
   }
   return sketch;
 }
@@ -400,6 +362,15 @@ constexpr WildFigure kFigures[] = {
     {"teeth", Teeth, {12, 2.5, 1.6, 1}},
     {"teeth", Teeth, {9, 1.6, 1.5, 0}, true},
     {"teeth", Teeth, {8, 2.2, 1.5, 1}, true},
+    {"strip", Strip, {1.5, 6}},
+    {"strip", Strip, {2.5, 4}},
+    {"strip", Strip, {1.8, 5}, true},
+    {"axle", Axle, {2, 2.5, 0.25}},
+    {"axle", Axle, {1, 3.5, 0.15}},
+    {"axle", Axle, {3, 3, 0.2}, true},
+    {"trunk", Trunk, {1.8, 0.4, 3}},
+    {"trunk", Trunk, {2.2, 0.6, 2.5}},
+    {"trunk", Trunk, {2, 0.5, 3}, true},
 };
 
 }  // namespace

@@ -2,7 +2,9 @@
 #define BCCSKEL_TESTS_QUALITY_WILD_FIGURES_H_
 
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <span>
 
 #include "core/import/shapes/random.h"
@@ -21,6 +23,13 @@ struct Pen {
   Vector Direction() { return shapes::Unit(random.InUnitBall()); }
   Vector Across(Vector axis) { return shapes::Unit(Cross(axis, random.InUnitBall())); }
 };
+
+inline constexpr double kPi = std::numbers::pi;
+
+// In the plane of x and y.
+inline Vector InPlane(double angle, double radius) {
+  return {radius * std::cos(angle), radius * std::sin(angle), 0};
+}
 
 struct WildFigure {
   const char* name;  // of the class

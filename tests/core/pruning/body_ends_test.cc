@@ -74,7 +74,7 @@ TEST(BodyEnds, TrunksGoOnBeyondTheirLastTwig) {
   for (const double thick : {12.0, 20.0}) {
     for (const double angle : {0.8, 1.05, 1.3}) {
       // How far the middle of the trunk's round end lies beyond the crotch.
-      for (const double beyond : {-0.9, 0.45}) {
+      for (const double beyond : {-0.9, 0.25, 0.45}) {
         const double x = (beyond + 1 / std::tan(angle) + kTwig / std::sin(angle)) * thick;
         const double length = (1 + 6 * kTwig) * thick;
         const WorldPoint end = {x, 0, 0};
