@@ -128,7 +128,9 @@ bool TipPlacer::LeadToBorder(const FreeBranch& branch) {
 
 bool TipPlacer::CutFlat(const FreeBranch& branch) {
   path_.assign(branch.points.rbegin(), branch.points.rend());
-  const auto root = std::ranges::find(path_, root_);
+  // The middle of a path with two ends may lie so near an end that it does not show the way there.
+  const auto eighth = path_.begin() + static_cast<std::ptrdiff_t>(path_.size() / 8);
+  const auto root = junction_.has_value() ? std::ranges::find(path_, root_) : eighth;
   if (root != path_.end()) path_.erase(path_.begin(), root);
   const std::optional<FlatEnd::Tip> tip = flat_.In(path_, set_);
   if (!tip.has_value() || (!tip->middle.empty() && IsLimbAfter(NearestTo(tip->middle.back())))) {
