@@ -29,6 +29,8 @@ constexpr double kRoundRadii = 1.3, kRoundSteps = 0.5, kLeastRound = 4, kLeastRo
 constexpr double kLongerThanCap = 1.3;  // in the depth where they begin to narrow
 constexpr double kStraight = 0.98, kStraightIfRough = 0.92;  // cosines of 11 and 23 degrees
 constexpr size_t kRoundPlaces = 8, kLeastRoundPlaces = 3, kMostWidePlaces = 1;
+// Of a path into a corner, in radii of the end of the ridge: how far it reaches, and its radius.
+constexpr double kCornerReach = 2.4, kIntoCorner = 0.85;
 constexpr size_t kChord = 4;  // points; shorter ones are steps of the lattice
 
 }  // namespace
@@ -254,6 +256,7 @@ size_t TipPlacer::GrowAnew(size_t first) {
   if (!bumps_.IsFirm(path_.back())) return turned.value_or(first);
   if (!turned.has_value()) {
     turned = RidgeEndAside(set_, depth_, {path_, first, path_[straight], limb_radius_});
+    if (turned.has_value() && MayLeadIntoCorner(straight, *turned)) turned.reset();
   }
   CutAfter(turned.value_or(straight));
   first = turned.value_or(first);
@@ -286,14 +289,23 @@ std::optional<size_t> TipPlacer::PointedEnd(size_t first, size_t straight) {
   const Coordinates out = set_.Way(path_[straight], path_[best]);
   const double straight_on = noise_.roughness == 1 ? kStraightIfRough : kStraight;
   if (Dot(in, out) > straight_on * LengthOf(in) * LengthOf(out)) return std::nullopt;
+  return IsRoundBetween(straight, best) ? std::optional(best) : std::nullopt;
+}
+
+bool TipPlacer::MayLeadIntoCorner(size_t straight, size_t end) {
+  const double from = depth_.At(path_[straight]), to = depth_.At(path_[end]);
+  const double reach = set_.Between(path_[straight], path_[end]) + to;
+  return to <= kIntoCorner * from && reach <= kCornerReach * from && !IsRoundBetween(straight, end);
+}
+
+bool TipPlacer::IsRoundBetween(size_t first, size_t last) {
   size_t round = 0, wide = 0;
   for (size_t k = 1; k <= kRoundPlaces; ++k) {
-    const size_t n = straight + (best - straight) * k / kRoundPlaces;
+    const size_t n = first + (last - first) * k / kRoundPlaces;
     if (depth_.At(path_[n]) < kLeastRound + kLeastRoundSteps * noise_.step) continue;
     ++(IsRoundAt(n) ? round : wide);
   }
-  const bool is_round = round >= kLeastRoundPlaces && wide <= kMostWidePlaces;
-  return is_round ? std::optional(best) : std::nullopt;
+  return round >= kLeastRoundPlaces && wide <= kMostWidePlaces;
 }
 
 bool TipPlacer::IsRoundAt(size_t n) {

@@ -96,6 +96,11 @@ class TipPlacer {
   // that is no farther beyond `straight`, up to which the path is certainly on the ridge, than a
   // cap is long.
   std::optional<size_t> PointedEnd(size_t first, size_t straight);
+  // Whether a path that turns aside may lead into a corner of a limb that is cut square: it does
+  // not reach farther, and the object is not round across it.
+  bool MayLeadIntoCorner(size_t straight, size_t end);
+  // In most of a few places of the path, all of which are thick enough to tell.
+  bool IsRoundBetween(size_t first, size_t last);
   bool IsRoundAt(size_t n);
   // A bent limb has turned away from the direction in which it left its anchor. Returns whether it
   // is bent.
