@@ -61,6 +61,14 @@ double CrossSections::NarrowerSide(const Coordinates& middle, const Coordinates&
   return longest;
 }
 
+double CrossSections::WiderAcross(const Coordinates& middle, const Coordinates& way, double radius,
+                                  double reach, bool beside_limb) {
+  if (beside_limb) return std::max(NarrowerSide(middle, way, radius, reach) - radius, 0.0);
+  CrossSection section = Across(middle, way, radius, reach);
+  Refine(reach, section);
+  return section.WiderThanThick();
+}
+
 void CrossSections::Refine(double reach, CrossSection& section) {
   const bool wide = section.half_width > kRoundness * section.radius + kRoundMargin;
   if (wide) TurnFinely(reach, section);

@@ -143,20 +143,11 @@ double Significance::OfBodyEnd(const ThinSet& set, const FreeBranch& branch, Bod
   const size_t middle = branch.points.size() / 2;
   const LatticePoint p = branch.points[middle];
   const bool beside = at == BodyAt::kTurn && LeavesTrunk(set, branch, sections_);
-  const double wider = WiderAcross(PlaceOf(p, scale_), DirectionAt(branch.points, middle, scale_),
-                                   set.RadiusOf(p), beside);
+  const Coordinates way = DirectionAt(branch.points, middle, scale_);
+  const double wider =
+      sections_.WiderAcross(PlaceOf(p, scale_), way, set.RadiusOf(p), kLongestRay, beside);
   const Run outer_half = {.from = middle, .to = branch.points.size()};
   return out / (radius + kWidthShare * wider) * UncoveredShare(set, branch, outer_half);
-}
-
-double Significance::WiderAcross(const Coordinates& middle, const Coordinates& way, double radius,
-                                 bool beside) {
-  if (beside) {
-    return std::max(sections_.NarrowerSide(middle, way, radius, kLongestRay) - radius, 0.0);
-  }
-  CrossSection section = sections_.Across(middle, way, radius, kLongestRay);
-  sections_.Refine(kLongestRay, section);
-  return section.WiderThanThick();
 }
 
 bool Significance::MayHaveBodyEnds(double radius, double least) const {

@@ -137,8 +137,6 @@ class Significance {
                       double width_near_tip) const;
   // An upper bound of ValueOf() without rays; it holds in floating point, too.
   double ValueAtMost(const ThinSet& set, const BranchPath& path, const Run& run) const;
-  // By how much the object is wider than the radius across a branch there.
-  double WiderAcross(const Coordinates& middle, const Coordinates& way, double radius, bool beside);
   double UncoveredShare(const ThinSet& set, const FreeBranch& branch, const Run& run);
   Sections SectionsAcross(const BranchPath& path, const Run& run, double reach);
   // The parts of the run, without widths and bounds.
