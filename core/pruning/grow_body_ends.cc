@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/distance/places.h"
+#include "core/exec/stop_poll.h"
 #include "core/pruning/branch_walk.h"
 #include "core/pruning/junction_ball.h"
 #include "core/pruning/point_table.h"
@@ -180,7 +181,8 @@ std::vector<LatticePoint> JunctionAt(LatticePoint p, const ThinSet& set,
 }
 
 // The deepest point of each junction, of those in balls that are large enough.
-std::vector<Place> JunctionsOf(const ThinSet& set, const Significance& significance) {
+std::vector<Place> JunctionsOf(const ThinSet& set, const Significance& significance,
+                               StopPoll& poll) {
   std::vector<LatticePoint> points;
   std::vector<Place> deepest;
   set.ForEachPoint([&](LatticePoint p) {
@@ -189,6 +191,7 @@ std::vector<Place> JunctionsOf(const ThinSet& set, const Significance& significa
   std::ranges::sort(points);
   PointTable<char> in_surface;
   for (LatticePoint p : points) {
+    if (poll.Stopped()) break;
     if (in_surface.Find(p) != nullptr) continue;
     const std::vector<LatticePoint> junction = JunctionAt(p, set, in_surface);
     if (junction.empty()) continue;
@@ -226,7 +229,8 @@ void AddTurnsOf(std::span<const LatticePoint> curve, const ThinSet& set,
   }
 }
 
-void AddTurns(const ThinSet& set, const Significance& significance, std::vector<Place>& turns) {
+void AddTurns(const ThinSet& set, const Significance& significance, StopPoll& poll,
+              std::vector<Place>& turns) {
   std::vector<LatticePoint> starts;
   set.ForEachPoint([&](LatticePoint p) {
     if (!IsCurvePoint(set.NeighborsOf(p))) starts.push_back(p);
@@ -235,7 +239,7 @@ void AddTurns(const ThinSet& set, const Significance& significance, std::vector<
   std::vector<LatticePoint> curve;
   for (LatticePoint start : starts) {
     ForEachNeighbor(start, set.NeighborsOf(start), [&](LatticePoint next) {
-      if (!IsCurvePoint(set.NeighborsOf(next))) return;
+      if (poll.Stopped(curve.size()) || !IsCurvePoint(set.NeighborsOf(next))) return;
       curve = {start};
       curve.push_back(FollowCurve(set, start, next, curve));
       AddTurnsOf(curve, set, significance, turns);
@@ -270,9 +274,10 @@ class Trial {
 
 void GrowBodyEnds(ThinSet& set, const PrunedObject& in, TipDepths& depths,
                   Significance& significance, double threshold, const exec::Context& context) {
-  std::vector<Place> places = JunctionsOf(set, significance);
-  AddTurns(set, significance, places);
-  if (places.empty()) return;
+  StopPoll poll(context);
+  std::vector<Place> places = JunctionsOf(set, significance, poll);
+  AddTurns(set, significance, poll, places);
+  if (places.empty() || context.ShouldStop()) return;
   std::vector<std::vector<ThinSet::Change>> grown(places.size());
   const int workers = context.WorkersFor(places.size(), Significance::kWork);
   (void)context.ForEach(workers, places.size(), 1, [&](int worker) {

@@ -88,10 +88,11 @@ bool HasLimb(const ThinSet& set, const std::vector<LatticePoint>& path, size_t d
 // The curve of an object without limbs depends on the pose: a cube has four equal diagonals. So a
 // path whose halves do not stick out of its deepest ball, and have no limb that does, shrinks to
 // that ball's center.
-void CollapsePaths(ThinSet& set, Significance& significance, double threshold,
-                   const PointSet& keep) {
+void CollapsePaths(ThinSet& set, Significance& significance, double threshold, const PointSet& keep,
+                   const exec::Context& context) {
   constexpr double kMost = 0.25;  // a spheroid 1.3 times as long as thick has it
   for (const LatticePoint end : set.Ends()) {
+    if (context.ShouldStop()) return;
     if (!set.Contains(end) || !set.IsEnd(end)) continue;
     const FreeBranch branch = BranchFrom(set, end);
     const std::vector<LatticePoint>& path = branch.points;
@@ -168,7 +169,7 @@ absl::StatusOr<ThinSkeleton> Prune(const ThinSkeleton& curves, const PrunedObjec
         .Run([](LatticePoint, double) {}, by_shape ? &turned : nullptr);
     turned.DropFrom(threshold);
     if (by_shape) {
-      CollapsePaths(set, significance, threshold, kept);
+      CollapsePaths(set, significance, threshold, kept, context);
       if (depths.has_value()) {
         const double least = std::max(threshold, kDefaultSignificance);
         GrowBodyEnds(set, in, *depths, significance, least, context);

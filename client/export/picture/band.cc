@@ -36,9 +36,10 @@ std::array<float, 3> Mean(const std::vector<std::array<float, 3>>& of,
 Band::Band(int width, int top, int rows) : width_(width), top_(top), rows_(rows) {
   const size_t samples = Index(0, rows);
   for (Hits* hits : {&near_, &far_, &bead_}) {
-    hits->depths.assign(samples, hits == &far_ ? kNothing : -kNothing);
+    hits->depths.assign(samples, -kNothing);
     hits->looks.resize(samples);
   }
+  far_.depths.assign(samples, kNothing);
 }
 
 // Calls visit(index, depth, weights) for each sample that a triangle covers: its depth there and
