@@ -46,9 +46,7 @@ std::vector<BrickKey> BricksBeyond(const Volume& object, const LatticeBox& windo
 Volume PointsBeyond(const Volume& object, const LatticeBox& window, std::vector<BrickKey> keys) {
   std::vector<BrickBits> bricks(keys.size());
   for (size_t n = 0; n < keys.size(); ++n) {
-    for (int bit = 0; bit < kBrickPoints; ++bit) {
-      if (!window.Contains(PointOf(keys[n].coordinates(), bit))) bricks[n].Set(bit);
-    }
+    bricks[n] = ~PointsIn(keys[n].coordinates(), window);
   }
   const LatticeExtent& inside = object.extent();
   return Volume::FromSortedBricks({inside.nx + kBrickX, inside.ny + kBrickY, inside.nz + kBrickZ},

@@ -81,10 +81,8 @@ class CutFinder {
     for (BrickIndex n = 0; n < object_.brick_count(); ++n) {
       const BrickCoordinates brick = object_.keys()[n].coordinates();
       if (inside.Contains(BoxOf(brick))) continue;
-      object_.bricks()[n].ForEachSetBit([&](int bit) {
-        const LatticePoint p = PointOf(brick, bit);
-        if (InwardAt(p, window_) != Coordinates{0, 0, 0}) points.push_back(p);
-      });
+      const BrickBits on_faces = object_.bricks()[n] & ~PointsIn(brick, inside);
+      on_faces.ForEachSetBit([&](int bit) { points.push_back(PointOf(brick, bit)); });
     }
     return points;
   }

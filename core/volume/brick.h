@@ -123,6 +123,27 @@ constexpr LatticeBox BoxOf(BrickCoordinates brick) {
   return {PointOf(brick, 0), PointOf(brick, kBrickPoints - 1)};
 }
 
+// The points of a brick that lie in the box.
+constexpr BrickBits PointsIn(BrickCoordinates brick, const LatticeBox& box) {
+  const LatticePoint first = PointOf(brick, 0);
+  const auto [low, high] = box;
+  uint64_t row = 0, layer = 0;
+  for (int32_t n = 0; n < kBrickX; ++n) {
+    const int32_t x = first.x + 2 * n;
+    if (low.x <= x && x <= high.x) row |= uint64_t{1} << n;
+  }
+  for (int32_t n = 0; n < kBrickY; ++n) {
+    const int32_t y = first.y + 2 * n;
+    if (low.y <= y && y <= high.y) layer |= row << (kBrickX * n);
+  }
+  BrickBits bits;
+  for (int32_t n = 0; n < kBrickZ; ++n) {
+    const int32_t z = first.z + 2 * n;
+    if (low.z <= z && z <= high.z) bits.words[static_cast<size_t>(n)] = layer;
+  }
+  return bits;
+}
+
 }  // namespace bccskel
 
 #endif  // BCCSKEL_CORE_VOLUME_BRICK_H_
