@@ -156,7 +156,7 @@ std::optional<Complaint> TooManyFiles(const std::vector<std::string>& rest,
       what, "run it once for each " + name + (writes ? ", and write -o before each output" : "")};
 }
 
-Complaint ComplaintAbout(const CLI::App& app, const CLI::Error& error) {
+Complaint DescribeError(const CLI::App& app, const CLI::Error& error) {
   const CLI::App& command = GivenCommand(app);
   const std::vector<std::string> rest = app.remaining(true);
   std::string what = UnknownWord(app, command);
@@ -199,7 +199,7 @@ class CommandLine {
     app_.set_version_flag("--version", "bccskel " + std::string(Version()));
     app_.footer(kFooter);
     app_.failure_message([](const CLI::App* app, const CLI::Error& error) {
-      const Complaint complaint = ComplaintAbout(*app, error);
+      const Complaint complaint = DescribeError(*app, error);
       const std::string name(ProgramName());
       std::string text = name + ": error: " + complaint.what + "\n";
       if (!complaint.hint.empty()) text += name + ": hint: " + complaint.hint + "\n";

@@ -62,7 +62,8 @@ class Skeleton:
 
     def to_networkx(self):
         """A MultiGraph: nodes with `position`, edges with `path` (the smooth curve), `radii` and
-        `length`, all in the world."""
+        `length`, all in the world. Most are arrays, which `networkx.write_graphml()` does not take;
+        `Skeleton.to_networkx()` of the package `bccskel` has numbers."""
         import networkx
         graph = networkx.MultiGraph()
         for number, position in enumerate(self.world(self.node)):

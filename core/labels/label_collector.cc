@@ -16,7 +16,7 @@ void Include(VoxelBox& box, const VoxelRun& run) {
               std::max(box.high[2], run.z + 1)};
 }
 
-// Of the equal labels from x on. Looks at several at a time, since most are the background's.
+// Of the equal labels from x on. Compares several at a time, since most are the background's.
 size_t EndOfRun(std::span<const uint64_t> labels, size_t x) {
   constexpr size_t kAtOnce = 8;
   const uint64_t label = labels[x];

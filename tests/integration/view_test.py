@@ -7,6 +7,8 @@ import os
 import re
 import unittest
 
+import numpy
+
 import browser
 import harness
 import view_samples
@@ -100,6 +102,14 @@ class ViewTest(PageTestCase):
                     page.run("[...document.querySelectorAll('#certificate td')]"
                              ".map((cell) => cell.textContent).join()"),
                     f"1,1,0,0,{cavities},{cavities}")
+
+    def test_the_verdict_says_what_a_sampling_changed(self):
+        line = numpy.zeros((5, 5, 21), "u1")
+        line[2, 2, ::2] = 1
+        numpy.save(self.path("line.npy"), line)
+        harness.bccskel("skeletonize", self.path("line.npy"), "--local", "--sampling", "trilinear",
+                        "--density", "0.5", "-o", self.path("s.html"))  # warns, too
+        self.assertRegex(self.open().text("#verdict"), "^sampling changed components 11 \u2192 ")
 
     def test_curves_lead_from_node_to_node(self):
         self.page("tree")

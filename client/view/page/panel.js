@@ -74,10 +74,13 @@ function showCertificate() {
   element("certificate").innerHTML = kTopology.map((name) => `<tr><th>${name}</th>${columns.map(
     ([, topology]) => `<td>${digits(topology[name])}</td>`).join("")}</tr>`).join("");
   const kept = kTopology.every((name) => input[name] === skeleton[name]);
-  element("verdict").className = kept ? "" : "bad";
+  const changes = !mask ? [] : kTopology.filter((name) => mask[name] !== input[name])
+    .map((name) => `${name} ${digits(mask[name])} \u2192 ${digits(input[name])}`);
+  element("verdict").className = kept && changes.length === 0 ? "" : "bad";
   element("verdict").textContent = !kept ? "\u2717 TOPOLOGY NOT KEPT"
-    : sampled ? "\u2713 kept from the sampled object on; sampling may have changed the image's"
-      : "\u2713 topology kept";
+    : changes.length > 0 ? `sampling changed ${changes.join(", ")}; kept from there on`
+      : sampled ? "\u2713 kept from the sampled object on; sampling may have changed the image's"
+        : "\u2713 topology kept";
   const digest = String(result.sha256 ?? "");
   element("digest").textContent = digest && `sha256 ${digest.slice(0, 12)}\u2026`;
   element("digest").title = digest;

@@ -31,7 +31,7 @@ class Flips {
   uint64_t seed_;
 };
 
-// Looks at the neighbors of one brick's points without searching for their bricks.
+// Visits the neighbors of one brick's points without searching for their bricks.
 class BrickSurroundings {
  public:
   BrickSurroundings(const Volume& object, BrickIndex index, const BrickNeighborhood& neighbors)

@@ -211,7 +211,7 @@ class Voxelizer {
   std::string CauseInWords(uint64_t crossings, const Volume& volume) const {
     if (crossings == 0) {
       return "walls or gaps are thinner than a cell, which more points or a smaller spacing "
-             "resolve, or parts touch" +
+             "resolve, or parts touch, which only a change of the mesh resolves" +
              WallsInWords(volume);
     }
     return Counted(static_cast<int64_t>(crossings), "pair of triangles crosses",
