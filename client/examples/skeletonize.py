@@ -62,8 +62,9 @@ class Skeleton:
 
     def to_networkx(self):
         """A MultiGraph: nodes with `position`, edges with `path` (the smooth curve), `radii` and
-        `length`, all in the world. Most are arrays, which `networkx.write_graphml()` does not take;
-        `Skeleton.to_networkx()` of the package `bccskel` has numbers."""
+        `length`, all in the world. All but `length` and `kind` are arrays, which
+        `networkx.write_graphml()` refuses; `to_networkx()` of the package `bccskel` has plain
+        numbers and texts."""
         import networkx
         graph = networkx.MultiGraph()
         for number, position in enumerate(self.world(self.node)):

@@ -81,8 +81,9 @@ class CrossSections {
   // is as wide as the limb on the other side. At most `reach`, which is at least `radius`.
   double NarrowerSide(const Coordinates& middle, const Coordinates& way, double radius,
                       double reach);
-  // By how much the object is wider than the radius across a branch there. `beside_limb`: to the
-  // narrower side only, since a limb lies to the other.
+  // By how much the object is wider than the radius across a branch there, in lattice units.
+  // `beside_limb`: to the narrower side only, since a limb lies to the other.
+  // Needs: `way` has length 1; `reach` is at least `radius`.
   double WiderAcross(const Coordinates& middle, const Coordinates& way, double radius, double reach,
                      bool beside_limb);
   // How far the object extends, up to `reach`, in whole lattice units. Skips single missing points,

@@ -186,7 +186,8 @@ std::vector<Place> JunctionsOf(const ThinSet& set, const Significance& significa
   std::vector<LatticePoint> points;
   std::vector<Place> deepest;
   set.ForEachPoint([&](LatticePoint p) {
-    if (set.Branches(p) && significance.MayHaveBodyEnds(set.RadiusOf(p))) points.push_back(p);
+    const bool may = set.Branches(p) && significance.MayHaveBodyEnds(set.RadiusOf(p));
+    if (!poll.Stopped() && may) points.push_back(p);
   });
   std::ranges::sort(points);
   PointTable<char> in_surface;
@@ -233,13 +234,15 @@ void AddTurns(const ThinSet& set, const Significance& significance, StopPoll& po
               std::vector<Place>& turns) {
   std::vector<LatticePoint> starts;
   set.ForEachPoint([&](LatticePoint p) {
-    if (!IsCurvePoint(set.NeighborsOf(p))) starts.push_back(p);
+    if (!poll.Stopped() && !IsCurvePoint(set.NeighborsOf(p))) starts.push_back(p);
   });
   std::ranges::sort(starts);
   std::vector<LatticePoint> curve;
   for (LatticePoint start : starts) {
+    if (poll.Stopped(1 + curve.size())) return;
+    curve.clear();
     ForEachNeighbor(start, set.NeighborsOf(start), [&](LatticePoint next) {
-      if (poll.Stopped(curve.size()) || !IsCurvePoint(set.NeighborsOf(next))) return;
+      if (!IsCurvePoint(set.NeighborsOf(next))) return;
       curve = {start};
       curve.push_back(FollowCurve(set, start, next, curve));
       AddTurnsOf(curve, set, significance, turns);

@@ -162,8 +162,11 @@ absl::StatusOr<ThinSkeleton> Prune(const ThinSkeleton& curves, const PrunedObjec
   std::optional<TipDepths> depths;  // none if no tips are placed
   if (options.tips == TipPlacement::kRidge) depths.emplace(space, in.radius);
   TurnedTips turned;
+  const PruningRule rule_of_levels = RuleOfLevels(options, curves);
+  double least_level = 0;  // ends of bodies stay by measures of their own
   if (options.rule != PruningRule::kNone) {
     const double threshold = ThresholdOf(options, curves.points.placement());
+    if (options.rule == rule_of_levels) least_level = threshold;
     const bool by_shape = options.rule == PruningRule::kSignificance;
     BranchPruner(set, significance, options.rule, threshold, kept, context)
         .Run([](LatticePoint, double) {}, by_shape ? &turned : nullptr);
@@ -182,8 +185,7 @@ absl::StatusOr<ThinSkeleton> Prune(const ThinSkeleton& curves, const PrunedObjec
   exec::Context alone = context;
   alone.team = nullptr;  // which places tips
   const auto find_levels = [&] {
-    levels = PruningLevelsOf(std::move(before_tips), significance, RuleOfLevels(options, curves),
-                             kept, alone);
+    levels = PruningLevelsOf(std::move(before_tips), significance, rule_of_levels, kept, alone);
   };
   PointSet stay = kept;
   if (in.cuts != nullptr) stay.insert(in.cuts->middles.begin(), in.cuts->middles.end());
@@ -200,7 +202,7 @@ absl::StatusOr<ThinSkeleton> Prune(const ThinSkeleton& curves, const PrunedObjec
   pruned.levels.reserve(pruned.radii.size());
   pruned.points.ForEachPoint([&](LatticePoint p) {
     const double* level = levels.Find(p);
-    pruned.levels.push_back(level != nullptr ? *level : kNoLevel);
+    pruned.levels.push_back(level != nullptr ? std::max(*level, least_level) : kNoLevel);
   });
   return pruned;
 }

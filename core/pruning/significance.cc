@@ -139,7 +139,7 @@ double Significance::OfBodyEnd(const ThinSet& set, const FreeBranch& branch, Bod
   }
   if (farthest == 0) return kNone;
   const double out = noise_.Beyond(farthest, radius, set.Way(junction, tip));
-  if (out / radius <= least) return kNone;
+  if (out / radius <= least || branch.points.size() < 2) return kNone;  // one has no direction
   const size_t middle = branch.points.size() / 2;
   const LatticePoint p = branch.points[middle];
   const bool beside = at == BodyAt::kTurn && LeavesTrunk(set, branch, sections_);

@@ -74,8 +74,8 @@ class Significance {
   void Forget() { verdicts_ = {}; }
   // Uses these balls instead of indexing those of the set at the first use.
   void Share(const BallIndex& balls) { balls_ = balls; }
-  // Where a body has an end: where a curve turns from it into a limb, the end may lie within the
-  // ball, and only the side without the limb shows how wide the body is.
+  // Where a body has an end: at a junction, or where its curve turns into a limb. There the end may
+  // lie within the ball, and only the side without the limb shows how wide the body is.
   enum class BodyAt : uint8_t { kJunction, kTurn };
   // The significance of a branch as the end of a body (IsBodyEnd()), which counts in Of() where
   // MayHaveBodyEnds(): how far it sticks out of the ball at its junction, relative to that ball's

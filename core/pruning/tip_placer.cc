@@ -29,7 +29,8 @@ constexpr double kRoundRadii = 1.3, kRoundSteps = 0.5, kLeastRound = 4, kLeastRo
 constexpr double kLongerThanCap = 1.3;  // in the depth where they begin to narrow
 constexpr double kStraight = 0.98, kStraightIfRough = 0.92;  // cosines of 11 and 23 degrees
 constexpr size_t kRoundPlaces = 8, kLeastRoundPlaces = 3, kMostWidePlaces = 1;
-// Of a path into a corner, in radii of the end of the ridge: how far it reaches, and its radius.
+// Of a path into a corner, in the depth where it leaves the straight part: how far the ball at its
+// end reaches from there (sqrt(5) for three equal sides), and the depth at its end.
 constexpr double kCornerReach = 2.4, kIntoCorner = 0.85;
 constexpr size_t kChord = 4;  // points; shorter ones are steps of the lattice
 

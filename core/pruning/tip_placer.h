@@ -96,10 +96,12 @@ class TipPlacer {
   // that is no farther beyond `straight`, up to which the path is certainly on the ridge, than a
   // cap is long.
   std::optional<size_t> PointedEnd(size_t first, size_t straight);
-  // Whether a path that turns aside may lead into a corner of a limb that is cut square: it does
-  // not reach farther, and the object is not round across it.
+  // Whether a path that turns aside from the position `straight` may lead into a corner of a limb
+  // that is cut square: its ball at `end` reaches no farther, it narrows, and the object is not
+  // round across it.
   bool MayLeadIntoCorner(size_t straight, size_t end);
-  // In most of a few places of the path, all of which are thick enough to tell.
+  // Whether, of eight places between the positions, at least three are round and at most one is
+  // not. Places too thin to tell do not count. Needs: first <= last.
   bool IsRoundBetween(size_t first, size_t last);
   bool IsRoundAt(size_t n);
   // A bent limb has turned away from the direction in which it left its anchor. Returns whether it

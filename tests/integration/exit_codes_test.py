@@ -68,7 +68,7 @@ class ExitCodesTest(harness.TestCase):
         volume = self.long_job()
         self.fail_with(5, "not done within the 0.001 s of --timeout", *self.skeletonize(volume, "--local", "--timeout", 0.001))
         with harness.Server(self.folder) as server:
-            self.fail_with(5, "the deadline passed before", *self.skeletonize(
+            self.fail_with(5, "deadline", *self.skeletonize(
                 volume, "--server", server.address, "--timeout", 0.01))
         self.assert_no_output()
 

@@ -110,6 +110,9 @@ class ViewTest(PageTestCase):
         harness.bccskel("skeletonize", self.path("line.npy"), "--local", "--sampling", "trilinear",
                         "--density", "0.5", "-o", self.path("s.html"))  # warns, too
         self.assertRegex(self.open().text("#verdict"), "^sampling changed components 11 \u2192 ")
+        harness.bccskel("skeletonize", self.path("line.npy"), "--local", "--min-component", "100",
+                        "-o", self.path("s.html"))  # which is not sampling
+        self.assertEqual(self.open().text("#verdict"), "\u2713 topology kept")
 
     def test_curves_lead_from_node_to_node(self):
         self.page("tree")

@@ -66,7 +66,7 @@ function showParts() {
 
 const kTopology = ["components", "loops", "cavities"];
 function showCertificate() {
-  const { mask, sampled, input, skeleton } = result.certificate;
+  const { mask, sampled, unprepared, input, skeleton } = result.certificate;
   const columns = [["image", mask], ["object", input], ["skeleton", skeleton]]
     .filter(([, topology]) => topology);
   element("certified").innerHTML = `<tr><th></th>${columns.map(([name]) =>
@@ -74,8 +74,9 @@ function showCertificate() {
   element("certificate").innerHTML = kTopology.map((name) => `<tr><th>${name}</th>${columns.map(
     ([, topology]) => `<td>${digits(topology[name])}</td>`).join("")}</tr>`).join("");
   const kept = kTopology.every((name) => input[name] === skeleton[name]);
-  const changes = !mask ? [] : kTopology.filter((name) => mask[name] !== input[name])
-    .map((name) => `${name} ${digits(mask[name])} \u2192 ${digits(input[name])}`);
+  const given = unprepared ?? input;
+  const changes = !(sampled && mask) ? [] : kTopology.filter((name) => mask[name] !== given[name])
+    .map((name) => `${name} ${digits(mask[name])} \u2192 ${digits(given[name])}`);
   element("verdict").className = kept && changes.length === 0 ? "" : "bad";
   element("verdict").textContent = !kept ? "\u2717 TOPOLOGY NOT KEPT"
     : changes.length > 0 ? `sampling changed ${changes.join(", ")}; kept from there on`

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "core/pipeline/skeletonize.h"
+#include "core/pruning/prune.h"
 #include "tests/core/pruning/sampled.h"
 
 namespace bccskel {
@@ -88,6 +89,9 @@ TEST(BodyEnds, TrunksGoOnBeyondTheirLastTwig) {
           const auto result = Skeletonize(test::Sampled(solid, kCells, turn), {}, {});
           ASSERT_TRUE(result.ok()) << result.status();
           EXPECT_EQ(FreeEndsOf(result->graph), beyond > 0 ? 3 : 2);
+          for (const SkeletonEdge& edge : result->graph.edges) {
+            EXPECT_GE(edge.pruning_level, kDefaultSignificance);
+          }
           const double gap = GapAt(end, result->graph, kCells, turn);
           EXPECT_TRUE(beyond < 0 || gap < thick / 4) << gap;
         }
