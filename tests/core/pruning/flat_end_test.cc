@@ -63,7 +63,7 @@ TEST(FlatEnd, LiesInTheMiddleOfAStripInAnyPose) {
       SCOPED_TRACE(testing::Message() << turn << ' ' << noise);
       const std::vector<Vector> ends =
           EndsOf(noise > 0 ? test::WithSimpleNoise(clean, noise, 3) : clean);
-      EXPECT_EQ(ends.size(), 2u);
+      ASSERT_EQ(ends.size(), 2u);
       for (const Vector& end : ends) {
         EXPECT_LT(std::abs(Dot(end, strip.second)), 0.4 * kWidth);
         EXPECT_NEAR(std::abs(Dot(end, strip.first)), kLength - kWidth, 0.4 * kWidth);
@@ -81,7 +81,7 @@ TEST(FlatEnd, LiesInTheMiddleOfAThickBar) {
       const Volume clean = *shapes::Rasterize({{bar}}, 1);
       const std::vector<Vector> ends =
           EndsOf(noise > 0 ? test::WithSimpleNoise(clean, noise, 3) : clean);
-      EXPECT_EQ(ends.size(), 2u);
+      ASSERT_EQ(ends.size(), 2u);
       for (const Vector& end : ends) EXPECT_LT(std::abs(Dot(end, bar.second)), 0.4 * kWidth);
     }
   }
@@ -162,7 +162,7 @@ TEST(FlatEnd, LiesInTheMiddleOfALimbBentInItsPlane) {
     for (const uint64_t seed : {1u, 2u, 3u}) {
       SCOPED_TRACE(testing::Message() << turn << ' ' << seed);
       const std::vector<Vector> ends = limb.Ends(0.05, seed);
-      EXPECT_EQ(ends.size(), 2u);
+      ASSERT_EQ(ends.size(), 2u);
       for (const Vector& end : ends) {
         const double y = end.y - kBend, angle = std::abs(std::atan2(end.x, -y));
         EXPECT_LT(std::abs(std::hypot(end.x, y) - kBend), 5);  // off its line
@@ -192,7 +192,7 @@ struct BroadLeaf {
     SCOPED_TRACE(testing::Message() << turn << ' ' << noise);
     const Turned leaf = {turn, 130, [&](Vector at) { return Contains(at); }};
     const std::vector<Vector> ends = leaf.Ends(noise, seed);
-    EXPECT_EQ(ends.size(), 2u);
+    ASSERT_EQ(ends.size(), 2u);
     const Vector end = std::ranges::max(ends, {}, &Vector::x);
     EXPECT_GT(end.x, Length() - 20 - 6);
     EXPECT_LT(std::abs(end.y), 5);
@@ -221,7 +221,7 @@ TEST(FlatEnd, HasNoneInTheCornersOfAStrip) {
       const double c = std::cos(turn), s = std::sin(turn);
       const Block strip = {{kLength, width, kThickness}, {c, s * c, s * s}, {-s, c * c, c * s}};
       const std::vector<Vector> ends = EndsOf(*shapes::Rasterize({{strip}}, 1));
-      EXPECT_EQ(ends.size(), 2u);
+      ASSERT_EQ(ends.size(), 2u);
       for (const Vector& end : ends) EXPECT_LT(std::abs(Dot(end, {-s, c * c, c * s})), width / 2);
     }
   }
@@ -236,7 +236,7 @@ TEST(FlatEnd, LiesInTheMiddleOfAShortStrip) {
     const Vector across = {-s, c * c, c * s};
     const Block strip = {{1.6 * kHalfWidth, kHalfWidth, kHalfThick}, {c, s * c, s * s}, across};
     const std::vector<Vector> ends = EndsOf(*shapes::Rasterize({{strip}}, 1));
-    EXPECT_EQ(ends.size(), 2u);
+    ASSERT_EQ(ends.size(), 2u);
     for (const Vector& end : ends) EXPECT_LT(std::abs(Dot(end, across)), 0.4 * kHalfWidth);
   }
 }
