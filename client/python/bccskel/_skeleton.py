@@ -321,8 +321,8 @@ class Skeleton:
 
         `swc_step` is the distance of SWC's points along the smooth curve, by default twice the
         smallest spacing, or an eighth of the largest if that is more; 0 writes the lattice points,
-        not smoothed. A result that was read from
-        JSON has no lattice points, and pictures and pages show its curves without the object.
+        not smoothed. A result that was read from JSON has no lattice points, and pictures and pages
+        show its curves without the object.
 
         Raises ValueError for another ending, OSError where it cannot be written. Warns of what the
         format could not hold.

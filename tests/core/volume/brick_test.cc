@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
 #include <set>
 #include <tuple>
 #include <vector>
@@ -30,6 +31,25 @@ TEST(BrickAddress, NamesEveryPointOfThreeBricksPerAxisOnce) {
     }
   }
   EXPECT_EQ(taken.size(), size_t{2 * 27 * kBrickPoints});
+}
+
+// Boxes that hold the brick, miss it, end within it at even and odd places, or are empty.
+TEST(BrickAddress, PointsInABoxAreThoseItContains) {
+  std::mt19937 random(7);
+  const auto near = [&](int32_t last) { return static_cast<int32_t>(random() % (last + 9u)) - 4; };
+  for (int n = 0; n < 2000; ++n) {
+    const BrickCoordinates brick = {1, 2, 1, kSublattices[random() % 2]};
+    const LatticePoint first = BoxOf(brick).low, last = BoxOf(brick).high;
+    const LatticePoint size = last - first;
+    const auto corner = [&] {
+      return LatticePoint{first.x + near(size.x), first.y + near(size.y), first.z + near(size.z)};
+    };
+    const LatticeBox box = {corner(), corner()};
+    const BrickBits inside = PointsIn(brick, box);
+    for (int bit = 0; bit < kBrickPoints; ++bit) {
+      ASSERT_EQ(inside.Test(bit), box.Contains(PointOf(brick, bit))) << n << ' ' << bit;
+    }
+  }
 }
 
 TEST(BrickAddress, LaysLanesAlongXLinesAlongYAndWordsAlongZ) {
