@@ -17,6 +17,7 @@
 #include "client/cli/console.h"
 #include "client/cli/image_options.h"
 #include "client/cli/load_object.h"
+#include "client/cli/progress_bar.h"
 #include "client/cli/summaries.h"
 #include "client/export/picture/caption.h"
 #include "client/export/text.h"
@@ -26,6 +27,7 @@
 #include "core/import/image/image_info.h"
 #include "core/import/image/open_image.h"
 #include "core/import/mesh/mesh_file.h"
+#include "core/import/voxelize/crossings.h"
 #include "core/io/volume_file.h"
 
 namespace bccskel::cli {
@@ -184,12 +186,19 @@ std::string Wrapped(const InfoArguments& arguments, const std::string& kind,
          "\":" + json + "}\n";
 }
 
-ExitCode AboutMesh(const InfoArguments& arguments) {
+ExitCode AboutMesh(const InfoArguments& arguments, const std::stop_token& stop) {
   const absl::StatusOr<TriangleMesh> mesh = ReadMeshFile(arguments.file);
   if (!mesh.ok()) return Fail(mesh.status());
-  const MeshReport report = AnalyzeMesh(*mesh);
-  if (arguments.common.summary == SummaryStyle::kText) return Print(MeshText(report));
-  return Print(Wrapped(arguments, "mesh", MeshJson(report)));
+  exec::Context context;
+  context.stop = stop;
+  const Surface surface = PrepareSurface(*mesh);
+  const absl::StatusOr<CrossingCount> crossings = CountCrossings(surface, context);
+  if (!crossings.ok()) return Fail(crossings.status());
+  const uint64_t count = crossings->total();
+  if (arguments.common.summary == SummaryStyle::kText) {
+    return Print(MeshText(surface.report, count));
+  }
+  return Print(Wrapped(arguments, "mesh", MeshJson(surface.report, count)));
 }
 
 ExitCode AboutImage(const InfoArguments& arguments, const std::stop_token& stop) {
@@ -226,10 +235,12 @@ void AddInfo(CLI::App& command, InfoArguments& arguments) {
 }
 
 ExitCode Run(const InfoArguments& arguments, const std::stop_token& stop) {
+  const ProgressBar bar(arguments.common.progress);
+  bar.Begin("reading", arguments.file);
   const absl::StatusOr<InputKind> kind = InputKindOf(arguments.file, arguments.image);
   if (!kind.ok()) return Fail(kind.status());
   if (*kind == InputKind::kImage) return AboutImage(arguments, stop);
-  return *kind == InputKind::kMesh ? AboutMesh(arguments) : AboutVolume(arguments, stop);
+  return *kind == InputKind::kMesh ? AboutMesh(arguments, stop) : AboutVolume(arguments, stop);
 }
 
 }  // namespace bccskel::cli

@@ -84,7 +84,7 @@ std::string MeshPhrase(const MeshReport& report) {
   return std::move(text).Take();
 }
 
-std::string MeshText(const MeshReport& report) {
+std::string MeshText(const MeshReport& report, std::optional<uint64_t> crossings) {
   Text text;
   text.Add("vertices:    ", GroupedDigits(report.vertices), '\n');
   text.Add("triangles:   ", GroupedDigits(report.triangles), " (",
@@ -93,6 +93,9 @@ std::string MeshText(const MeshReport& report) {
   AddClosure(text, report);
   text.Add(report.consistently_oriented() ? ", consistently oriented" : ", orientation mixed",
            '\n');
+  if (crossings.value_or(0) > 0) {
+    text.Add("crossings:   ", Counted(*crossings, "pair of triangles", "pairs of triangles"), '\n');
+  }
   text.Add("components:  ", report.components.size(), '\n');
   if (report.genus.has_value()) text.Add("genus:       ", *report.genus, '\n');
   if (const auto solid = BettiOf(report); solid.has_value()) {
@@ -106,7 +109,7 @@ std::string MeshText(const MeshReport& report) {
   return std::move(text).Take();
 }
 
-std::string MeshJson(const MeshReport& report) {
+std::string MeshJson(const MeshReport& report, std::optional<uint64_t> crossings) {
   const std::optional<BettiNumbers> solid = BettiOf(report);
   Text text;
   text.Add("{\"vertices\":", report.vertices, ",\"triangles\":", report.triangles,
@@ -115,8 +118,9 @@ std::string MeshJson(const MeshReport& report) {
            ",\"non_manifold_edges\":", report.non_manifold_edges,
            ",\"misoriented_edges\":", report.misoriented_edges, ",\"closure\":\"",
            ClosureName(report.closure), "\",\"watertight\":", JsonBool(report.watertight()),
-           ",\"consistently_oriented\":", JsonBool(report.consistently_oriented()),
-           ",\"components\":", report.components.size(), ",\"genus\":", report.genus,
+           ",\"consistently_oriented\":", JsonBool(report.consistently_oriented()));
+  if (crossings.has_value()) text.Add(",\"crossings\":", *crossings);
+  text.Add(",\"components\":", report.components.size(), ",\"genus\":", report.genus,
            ",\"solid\":", solid.has_value() ? exporting::BettiJson(*solid) : "null",
            ",\"volume\":", Finite(report.volume), ",\"box\":[");
   AddTriple(text, report.lower);

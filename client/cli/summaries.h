@@ -24,8 +24,9 @@ std::string JsonStrings(const std::vector<std::string>& texts);  // an array
 std::string MeshPhrase(const MeshReport& report);
 
 // The facts about a mesh, one per line; and the same as a JSON object.
-std::string MeshText(const MeshReport& report);
-std::string MeshJson(const MeshReport& report);
+// `crossings`: pairs of triangles that cross, if they were counted.
+std::string MeshText(const MeshReport& report, std::optional<uint64_t> crossings = std::nullopt);
+std::string MeshJson(const MeshReport& report, std::optional<uint64_t> crossings = std::nullopt);
 
 // "parity" or "winding".
 std::string FillRuleName(FillRule rule);

@@ -23,8 +23,6 @@ double Volume6(const Vertex& a, const Vertex& b, const Vertex& c, const Vertex& 
   return Dot(from_d(a), Cross(from_d(b), from_d(c)));
 }
 
-bool AreOpposite(double a, double b) { return (a < 0 && b > 0) || (a > 0 && b < 0); }
-
 struct Box {
   Vertex low, high;
 
@@ -134,30 +132,37 @@ class Crossings {
     return place(2) << 42 | place(1) << 21 | place(0);
   }
 
+  using Corners = std::array<const Vertex*, 3>;
+  Corners CornersOf(uint32_t triangle) const {
+    const Triangle& t = surface_.triangles[triangle];
+    return {&surface_.vertices[t[0]], &surface_.vertices[t[1]], &surface_.vertices[t[2]]};
+  }
+
+  // Guigue and Devillers (2003), without degenerate cases: each triangle crosses the plane of the
+  // other, and the two segments on the line of both planes overlap. Each triangle is turned so that
+  // its first corner is alone on its side, and the other one so that this side is the positive one.
   bool Cross(uint32_t a, uint32_t b) const {
-    return AnyEdgePierces(surface_.triangles[a], surface_.triangles[b]) ||
-           AnyEdgePierces(surface_.triangles[b], surface_.triangles[a]);
+    Corners s = CornersOf(a), t = CornersOf(b);
+    if (!TurnToCross(s, t) || !TurnToCross(t, s)) return false;
+    return Volume6(*s[0], *s[1], *t[0], *t[1]) < 0 && Volume6(*s[0], *s[2], *t[2], *t[0]) < 0;
   }
 
-  bool AnyEdgePierces(const Triangle& edges, const Triangle& t) const {
-    for (size_t n = 0; n < 3; ++n) {
-      const uint32_t p = edges[n], q = edges[(n + 1) % 3];
-      if (std::ranges::find(t, p) != t.end() || std::ranges::find(t, q) != t.end()) continue;
-      if (Pierces(surface_.vertices[p], surface_.vertices[q], t)) return true;
-    }
-    return false;
-  }
-
-  bool Pierces(const Vertex& p, const Vertex& q, const Triangle& t) const {
-    const auto corner = [&](size_t n) -> const Vertex& { return surface_.vertices[t[n % 3]]; };
-    if (!AreOpposite(Volume6(corner(0), corner(1), corner(2), p),
-                     Volume6(corner(0), corner(1), corner(2), q))) {
-      return false;
-    }
+  // Returns whether the triangle crosses the plane of the other one.
+  static bool TurnToCross(Corners& triangle, Corners& other) {
     std::array<double, 3> sides;
-    for (size_t n = 0; n < 3; ++n) sides[n] = Volume6(p, q, corner(n), corner(n + 1));
-    return std::ranges::all_of(sides, [](double s) { return s > 0; }) ||
-           std::ranges::all_of(sides, [](double s) { return s < 0; });
+    for (size_t n = 0; n < 3; ++n) {
+      sides[n] = Volume6(*other[0], *other[1], *other[2], *triangle[n]);
+    }
+    const auto count = [&](auto is) { return std::ranges::count_if(sides, is); };
+    const auto above = count([](double s) { return s > 0; });
+    const auto below = count([](double s) { return s < 0; });
+    if (above == 0 || below == 0) return false;
+    const bool is_above = above == 1;
+    size_t first = 0;
+    while (is_above ? !(sides[first] > 0) : !(sides[first] < 0)) ++first;
+    std::ranges::rotate(triangle, triangle.begin() + static_cast<ptrdiff_t>(first));
+    if (!is_above) std::swap(other[1], other[2]);
+    return true;
   }
 
   const Surface& surface_;

@@ -17,8 +17,9 @@ struct CrossingCount {
   uint64_t total() const { return within_parts + between_parts; }
 };
 
-// Counts the pairs of triangles that cross: an edge of one pierces the interior of the other.
-// Triangles that only touch, overlap in a plane or share an edge do not cross.
+// Counts the pairs of triangles that cross: each has corners on both sides of the other's plane,
+// and they have more than a point in common. Triangles that only touch, overlap in a plane or share
+// an edge do not cross.
 // Cost:   follows the triangles and the pairs with overlapping boxes.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
 absl::StatusOr<CrossingCount> CountCrossings(const Surface& surface, const exec::Context& context);

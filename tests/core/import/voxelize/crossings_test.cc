@@ -3,11 +3,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <optional>
 #include <random>
 #include <stop_token>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/import/mesh/mesh_file.h"
 #include "tests/core/import/mesh/mesh_shapes.h"
@@ -40,6 +45,28 @@ TEST(Crossings, OfANeedleThroughASheetAreThoseOfItsSides) {
   mesh.vertices.push_back({2.1, 2, 6});
   mesh.triangles.push_back({3, 4, 6});  // shares an edge with the other one
   EXPECT_EQ(CrossingsOf(mesh), 2u);
+}
+
+// The walls of a prism over a bow tie cross where edges meet edges, which pierces no interior.
+TEST(Crossings, OfEdgesWithEdgesCount) {
+  TriangleMesh mesh;
+  for (const double z : {0, 1}) {
+    mesh.vertices.insert(mesh.vertices.end(), {{0, 0, z}, {1, 1, z}, {1, 0, z}, {0, 1, z}});
+  }
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {4, 6, 5}, {4, 7, 6}};
+  for (uint32_t n = 0; n < 4; ++n) {
+    const uint32_t next = (n + 1) % 4;
+    mesh.triangles.push_back({n, next, next + 4});
+    mesh.triangles.push_back({n, next + 4, n + 4});
+  }
+  EXPECT_GE(CountIn(mesh).within_parts, 2u);
+}
+
+TEST(Crossings, AreNoneWhereBoxesTouchAnywhere) {
+  for (const double off : {0.0, 0.25, 0.5, 1.0}) {
+    EXPECT_EQ(CrossingsOf(Merged(Box({0, 0, 0}, {1, 1, 1}), Box({1, off, off / 2}, {2, 2, 2}))), 0u)
+        << off;
+  }
 }
 
 TEST(Crossings, OfASurfaceWithItselfAreToldFromThoseOfParts) {
@@ -79,6 +106,81 @@ bool Meets(const Vertex& p, const Vertex& q, const Vertex& a, const Vertex& b, c
   const double along = rows[0][3] / rows[0][0], u = rows[1][3] / rows[1][1],
                v = rows[2][3] / rows[2][2];
   return along > 0 && along < 1 && u > 0 && v > 0 && u + v < 1;
+}
+
+// Triangles with corners on a small grid meet in every degenerate way; integers are exact.
+using Whole = std::array<int64_t, 3>;
+int64_t WholeDot(const Whole& a, const Whole& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Whole WholeCross(const Whole& a, const Whole& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+Whole Between(const Whole& a, const Whole& b) { return {b[0] - a[0], b[1] - a[1], b[2] - a[2]}; }
+using Corners = std::array<Whole, 3>;
+
+struct Fraction {
+  int64_t over, under;  // positive
+  bool operator<(const Fraction& other) const { return over * other.under < other.over * under; }
+};
+
+// Where the triangle meets a plane that it crosses, along the direction.
+std::optional<std::pair<Fraction, Fraction>> Segment(const Corners& t, const Corners& plane,
+                                                     const Whole& along) {
+  const Whole normal = WholeCross(Between(plane[0], plane[1]), Between(plane[0], plane[2]));
+  std::array<int64_t, 3> height;
+  for (size_t n = 0; n < 3; ++n) height[n] = WholeDot(normal, Between(plane[0], t[n]));
+  if (std::ranges::max(height) <= 0 || std::ranges::min(height) >= 0) return std::nullopt;
+  std::vector<Fraction> places;
+  for (size_t n = 0; n < 3; ++n) {
+    const size_t m = (n + 1) % 3;
+    const int64_t at = WholeDot(along, t[n]), to = WholeDot(along, t[m]);
+    if (height[n] == 0) places.push_back({at, 1});
+    if (std::min(height[n], height[m]) < 0 && std::max(height[n], height[m]) > 0) {
+      const int64_t sign = height[n] > height[m] ? 1 : -1;
+      places.push_back({sign * (to * height[n] - at * height[m]), sign * (height[n] - height[m])});
+    }
+  }
+  const auto [low, high] = std::minmax_element(places.begin(), places.end());
+  return std::pair(*low, *high);
+}
+
+bool ShareASegment(const Corners& s, const Corners& t) {
+  const auto normal = [](const Corners& c) {
+    return WholeCross(Between(c[0], c[1]), Between(c[0], c[2]));
+  };
+  const Whole along = WholeCross(normal(s), normal(t));
+  const auto one = Segment(s, t, along), other = Segment(t, s, along);
+  return one && other && std::max(one->first, other->first) < std::min(one->second, other->second);
+}
+
+TEST(CrossingsLaw, OfDegeneratePairsAreThoseThatShareASegment) {
+  std::mt19937_64 random(11);
+  std::uniform_int_distribution<int> at(0, 4);  // the mesh fills a cube of 4: scaling is exact
+  int expected = 0;
+  for (int n = 0; n < 20000; ++n) {
+    std::array<Corners, 2> pair;
+    for (Corners& t : pair) {
+      for (Whole& corner : t) corner = {at(random), at(random), at(random)};
+    }
+    TriangleMesh mesh;
+    mesh.vertices = {{0, 0, 0}, {4, 4, 4}, {4, 4, 0}};
+    mesh.triangles = {{0, 1, 2}};
+    std::array<TriangleMesh, 2> alone = {mesh, mesh};
+    for (size_t k = 0; k < 2; ++k) {
+      const auto first = static_cast<uint32_t>(mesh.vertices.size());
+      for (const Whole& c : pair[k]) {
+        const Vertex v = {static_cast<double>(c[0]), static_cast<double>(c[1]),
+                          static_cast<double>(c[2])};
+        mesh.vertices.push_back(v);
+        alone[k].vertices.push_back(v);
+      }
+      mesh.triangles.push_back({first, first + 1, first + 2});
+      alone[k].triangles.push_back({3, 4, 5});
+    }
+    const bool crosses = ShareASegment(pair[0], pair[1]);
+    ASSERT_EQ(CrossingsOf(mesh) - CrossingsOf(alone[0]) - CrossingsOf(alone[1]), crosses) << n;
+    expected += crosses;
+  }
+  EXPECT_GT(expected, 1000);
 }
 
 TEST(CrossingsLaw, AreThoseOfAllPairs) {
