@@ -68,4 +68,23 @@ absl::Status CheckEndpoint(const Endpoint& endpoint) {
                                        " in the clear, because there is no TLS");
 }
 
+ConnectionFault ConnectionFaultOf(std::string_view message, std::string_view address,
+                                  Encryption encryption) {
+  std::string lower(message);
+  absl::AsciiStrToLower(&lower);
+  const auto tells = [&lower](std::string_view what) {
+    return lower.find(what) != std::string::npos;
+  };
+  if (encryption == Encryption::kTls) {
+    if (tells("certificate verify failed")) return ConnectionFault::kNotTrusted;
+    const bool plain = tells("wrong version number") || tells("wrong_version_number");
+    return plain ? ConnectionFault::kServerHasNoTls : ConnectionFault::kNoServer;
+  }
+  // Something listens there but does not respond like a server.
+  const bool breaks_off =
+      tells("failed to connect") && !tells("to remote host") && !tells("timeout");
+  return breaks_off && !address.starts_with(kUnixPrefix) ? ConnectionFault::kMayWantTls
+                                                         : ConnectionFault::kNoServer;
+}
+
 }  // namespace bccskel::client

@@ -44,6 +44,17 @@ absl::StatusOr<std::string> TokenToSend(std::string_view token);
 //         TLS, or a key without a certificate.
 absl::Status CheckEndpoint(const Endpoint& endpoint);
 
+// Why a server cannot be reached, as far as gRPC's message tells.
+enum class ConnectionFault {
+  kNoServer,        // or nothing else is known
+  kServerHasNoTls,  // it answers a client with TLS in plain text
+  kNotTrusted,      // the client's authorities did not sign its certificate
+  kMayWantTls       // it breaks off the connection of a client without TLS
+};
+// `message`: of an UNAVAILABLE error that the server did not send.
+ConnectionFault ConnectionFaultOf(std::string_view message, std::string_view address,
+                                  Encryption encryption);
+
 }  // namespace bccskel::client
 
 #endif  // BCCSKEL_CLIENT_ENDPOINT_H_

@@ -17,6 +17,7 @@
 
 #include "client/cli/arguments.h"
 #include "client/cli/progress_bar.h"
+#include "client/endpoint.h"
 #include "client/export/skeleton_file.h"
 #include "core/exec/status_macros.h"
 #include "proto/wire/error_details.h"
@@ -59,19 +60,29 @@ void PrintLine(std::string_view kind, std::string_view message) {
                static_cast<int>(message.size()), message.data());
 }
 
-// Whether gRPC's message says that something listens there but does not respond like a server.
-bool BreaksOff(std::string_view message) {
-  const auto tells = [message](std::string_view what) {
-    return message.find(what) != message.npos;
-  };
-  return tells("failed to connect") && !tells("to remote host") && !tells("imeout");
+client::ConnectionFault FaultOf(const ServerArguments& server, const absl::Status& error) {
+  if (wire::ErrorInfoOf(error).has_value()) return client::ConnectionFault::kNoServer;
+  return client::ConnectionFaultOf(
+      {error.message().data(), error.message().size()}, server.address,
+      server.tls_ca.empty() ? client::Encryption::kNone : client::Encryption::kTls);
 }
 
-// Whether the server may require TLS: to a plaintext client this looks like a broken connection.
-bool MayWantTls(const ServerArguments& server, const absl::Status& error) {
-  return absl::IsUnavailable(error) && !wire::ErrorInfoOf(error).has_value() &&
-         BreaksOff({error.message().data(), error.message().size()}) && server.tls_ca.empty() &&
-         server.address.compare(0, 5, "unix:") != 0;
+std::string ReachHint(client::ConnectionFault fault, std::string_view local) {
+  switch (fault) {
+    case client::ConnectionFault::kServerHasNoTls:
+      return "the server has no TLS: start it with --tls-cert and --tls-key, or leave out --tls-ca "
+             "where nobody else can read along";
+    case client::ConnectionFault::kNotTrusted:
+      return "name the authority that signed the server's certificate with --tls-ca";
+    case client::ConnectionFault::kMayWantTls:
+      return "if the server uses TLS, name its certificate authority with --tls-ca";
+    case client::ConnectionFault::kNoServer:
+      break;
+  }
+  return local.empty()
+             ? "start bccskel-server, or name another server with --server"
+             : "start bccskel-server, name another server with --server, or compute here with " +
+                   std::string(local);
 }
 
 bool LacksToken(const ServerArguments& server, const absl::Status& error) {
@@ -117,16 +128,7 @@ ExitCode FailOnServer(const ServerArguments& server, const absl::Status& error,
                       std::string_view local) {
   PrintLine("error", "server " + server.address + ": " + std::string(error.message()));
   if (LacksToken(server, error)) PrintLine("hint", "name the file of your token with --token-file");
-  if (MayWantTls(server, error)) {
-    PrintLine("hint", "if the server uses TLS, name its certificate authority with --tls-ca");
-  } else if (absl::IsUnavailable(error)) {
-    PrintLine(
-        "hint",
-        local.empty()
-            ? "start bccskel-server, or name another server with --server"
-            : "start bccskel-server, name another server with --server, or compute here with " +
-                  std::string(local));
-  }
+  if (absl::IsUnavailable(error)) PrintLine("hint", ReachHint(FaultOf(server, error), local));
   return CodeOf(error);
 }
 

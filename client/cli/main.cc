@@ -59,8 +59,12 @@ void PutHeapOnHugePages() {
   bccskel::exec::PreferHugePages(const_cast<char*>(end) - kRoom, kRoom);
 }
 
+// gRPC logs each attempt to connect; our message says how the last one ended.
+void SilenceGrpc() { setenv("GRPC_VERBOSITY", "NONE", /*replace=*/0); }
+
 ExitCode Main(int argc, char** argv) {
   DisableDeadlockDetection();
+  SilenceGrpc();
   KeepFreeMemory();
   const auto parsed = bccskel::cli::ParseArguments(argc, argv);
   if (const auto* code = std::get_if<ExitCode>(&parsed)) return *code;

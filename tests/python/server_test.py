@@ -106,6 +106,17 @@ class TlsTest(harness.TestCase):
             with self.assertRaises((ConnectionError, TimeoutError)):
                 bccskel.Client(address, tls=tls).describe(timeout=5)
 
+    def test_who_does_not_reach_a_server_learns_why(self):
+        ours, theirs = self.ours.pair.certificate, self.theirs.pair.certificate
+        plain = self.enterContext(harness.Server(self.folder, listen="127.0.0.1:0")).address
+        encrypted = self.serve()
+        for address, tls, why in (
+                (plain, ours, "it has no TLS: leave out tls= where nobody else can read along$"),
+                (encrypted, theirs, "give the authority that signed its certificate as tls=$"),
+                (encrypted, None, "if it wants TLS, give tls= to Client$")):
+            with self.assertRaisesRegex(ConnectionError, f"^server {address}: .*; {why}"):
+                bccskel.Client(address, tls=tls).skeletonize(numpy.ones((3, 3, 3)), timeout=20)
+
     def test_a_client_shows_a_certificate_and_a_token(self):
         authority = self.ours.pair.certificate
         made = subprocess.run([harness.SERVER, "--new-token", "ann"], capture_output=True,
@@ -137,9 +148,8 @@ class RefusalsTest(harness.TestCase):
     def test_no_server(self):
         with self.assertRaisesRegex(TypeError, "a Client holds a connection and cannot be pickled: "):
             pickle.dumps(bccskel.Client("unix:/nowhere"))
-        for address, hint in ((f"unix:{self.folder}/none", "there$"),
-                              ("127.0.0.1:1", "there; if it wants TLS, give tls= to Client$")):
-            message = f"^server {address}: .*; start bccskel-server {hint}"
+        for address in (f"unix:{self.folder}/none", "127.0.0.1:1"):
+            message = f"^server {address}: .*; start bccskel-server there$"
             with self.assertRaisesRegex(ConnectionError, message):
                 bccskel.Client(address).skeletonize(numpy.ones((3, 3, 3)), timeout=20)
 

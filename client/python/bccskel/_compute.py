@@ -406,10 +406,14 @@ class Client(_Functions):
                 raise
             raise PermissionError(f"{error}: give it as token= of Client") from None
         except ConnectionError as error:
-            plain = not self._has_tls and not self.address.startswith("unix:")
-            tls = "; if it wants TLS, give tls= to Client" if plain else ""
-            raise ConnectionError(f"server {self.address}: {error}; start bccskel-server there"
-                                  f"{tls}") from None
+            fault = _native.connection_fault(str(error), self.address, self._has_tls)
+            hints = {_native.ConnectionFault.SERVER_HAS_NO_TLS:
+                     "it has no TLS: leave out tls= where nobody else can read along",
+                     _native.ConnectionFault.NOT_TRUSTED:
+                     "give the authority that signed its certificate as tls=",
+                     _native.ConnectionFault.MAY_WANT_TLS: "if it wants TLS, give tls= to Client"}
+            hint = hints.get(fault, "start bccskel-server there")
+            raise ConnectionError(f"server {self.address}: {error}; {hint}") from None
 
     def describe(self, timeout: float = 10.0) -> dict[str, str]:
         """{'server_version': ..., 'algorithm_version': ...}"""

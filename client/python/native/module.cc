@@ -267,6 +267,11 @@ void AddValues(py::module_& module) {
   py::class_<Volume, std::shared_ptr<Volume>>(module, "Volume")
       .def("points", &PointsOf)
       .def_property_readonly("placement", [](const Volume& v) { return v.placement(); });
+  py::enum_<client::ConnectionFault>(module, "ConnectionFault")
+      .value("NO_SERVER", client::ConnectionFault::kNoServer)
+      .value("SERVER_HAS_NO_TLS", client::ConnectionFault::kServerHasNoTls)
+      .value("NOT_TRUSTED", client::ConnectionFault::kNotTrusted)
+      .value("MAY_WANT_TLS", client::ConnectionFault::kMayWantTls);
   py::class_<client::Endpoint>(module, "Endpoint").def(py::init(&MakeEndpoint));
   py::class_<client::SkeletonizeClient, Server>(module, "Server").def(py::init(&ConnectTo));
   py::class_<Call>(module, "Call")
@@ -295,6 +300,11 @@ void AddFunctions(py::module_& module) {
   module.def("read_lattice", &ReadLattice);
   module.def("skeletonize_lattice", &LatticeSkeleton);
   module.def("describe_server", &Describe);
+  module.def("connection_fault",
+             [](const std::string& message, const std::string& address, bool tls) {
+               return client::ConnectionFaultOf(
+                   message, address, tls ? client::Encryption::kTls : client::Encryption::kNone);
+             });
 }
 
 }  // namespace

@@ -180,6 +180,15 @@ class TlsTest(unittest.TestCase):
                 [CLI, "submit", volume, "-o", skeleton, "--server", address, *flags],
                 capture_output=True, text=True, timeout=server_process.TIMEOUT_S, check=False)
 
+        for flags, tls, hint in (
+                ((), trusted, "the server has no TLS: start it with --tls-cert and --tls-key"),
+                (self.flags(), ("--tls-ca", self.theirs.pair.certificate),
+                 "name the authority that signed the server's certificate with --tls-ca"),
+                (self.flags(), (), "if the server uses TLS, name its certificate authority")):
+            with ServerProcess(*flags) as server:
+                lines = submit(server.address, *tls).stderr.splitlines()
+                self.assertEqual(len(lines), 2, lines)  # none of gRPC's own
+                self.assertTrue(lines[1].startswith("bccskel: hint: " + hint), lines)
         with ServerProcess(*self.flags(), "--tls-client-ca", str(self.ours.pair.certificate),
                            "--tokens", str(self.folder / "tokens")) as server:
             ended = submit(server.address, *trusted, *shown, *token_file)
