@@ -1,8 +1,11 @@
 #include "client/export/branch_table.h"
 
 #include <cmath>
+#include <string_view>
 #include <utility>
 
+#include "absl/strings/str_replace.h"
+#include "client/export/picture/escape.h"
 #include "client/export/text.h"
 #include "core/skeleton/skeleton_figures.h"
 
@@ -32,6 +35,7 @@ void AddHeader(Text& text, const GraphContext& context) {
            "coord_src_x,coord_src_y,coord_src_z,coord_dst_x,coord_dst_y,coord_dst_z,",
            "pruning_level");
   if (context.order.has_value()) text.Add(",generation,strahler");
+  text.Add(",world,unit");
   text.Add('\n');
 }
 
@@ -60,17 +64,26 @@ void AddRow(Text& text, const SkeletonGraph& graph, size_t n, uint32_t component
   if (std::isfinite(edge.pruning_level)) text.Add(edge.pruning_level);
 }
 
+// A cell that holds any text.
+std::string Quoted(std::string_view text) {
+  const std::string line = OnOneLine(text);
+  if (line.find_first_of(",\"") == std::string::npos) return line;
+  return "\"" + absl::StrReplaceAll(line, {{"\"", "\"\""}}) + "\"";
+}
+
 }  // namespace
 
 std::string BranchTableText(const SkeletonGraph& graph, const GraphContext& context) {
   Text text(context.exec.stop);
   AddHeader(text, context);
   const GraphComponents components = ComponentsOf(graph, context.exec.stop);
+  const std::string world = "," + Quoted(OrUnknown(FactNamed(context.facts, "world"))) + "," +
+                            Quoted(OrUnknown(FactNamed(context.facts, "unit"))) + "\n";
   for (size_t n = 0; n < graph.edges.size() && !text.stopped(); ++n) {
     if (!context.labels.of_edges.empty()) text.Add(context.labels.of_edges[n], ',');
     AddRow(text, graph, n, components.of_node[graph.edges[n].source]);
     if (context.order.has_value()) AddOrder(text, context.order->edges[n]);
-    text.Add('\n');
+    text.Add(world);
   }
   return std::move(text).Take();
 }

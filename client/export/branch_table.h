@@ -22,6 +22,7 @@ namespace bccskel::exporting {
 //   coord_src_x .. coord_dst_z          places of the nodes
 //   pruning_level                       empty for branches that are never pruned
 //   generation, strahler                with an order of trees; empty where an edge closes a loop
+//   world, unit                         those of the facts of the context, the same in each row
 // World coordinates and units. Isolated nodes and closed surfaces have no row.
 std::string BranchTableText(const SkeletonGraph& graph, const GraphContext& context = {});
 

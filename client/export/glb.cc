@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "client/export/picture/escape.h"
 #include "client/export/sampled_curve.h"
 #include "client/export/text.h"
 #include "client/export/tube.h"
@@ -110,13 +111,14 @@ class Scene {
 
   // The file, as soon as all tubes are there. The vertices are most of a large one and make room in
   // place: copies take more time than all computing.
-  absl::StatusOr<std::string> File(const WorldPoint& center, bool y_up) && {
+  absl::StatusOr<std::string> File(const WorldPoint& center, bool y_up,
+                                   const MethodFacts& facts) && {
     if (box_) {
       AddMesh(0, vertices_.size() / kVertexBytes, *box_,
               [&] { return AddCorners(0, corners_.size() / sizeof(uint32_t)); });
       node_text_.Add(",\n{\"name\":\"branches\",\"mesh\":0}");
     }
-    std::string json = Json(center, y_up);
+    std::string json = Json(center, y_up, facts);
     json.resize((json.size() + 3) / 4 * 4, ' ');
     const size_t binary = vertices_.size() + corners_.size();  // words alone
     const size_t size = kHeads + json.size() + (binary > 0 ? kChunkHead + binary : 0);
@@ -183,7 +185,7 @@ class Scene {
     return AddCorners(first, corners.size());
   }
 
-  std::string Json(const WorldPoint& center, bool y_up) {
+  std::string Json(const WorldPoint& center, bool y_up, const MethodFacts& facts) {
     Text text;
     text.Add("{\"asset\":{\"version\":\"2.0\",\"generator\":\"bccskel\"},\n\"scene\":0,\"scenes\":",
              "[{\"nodes\":[0]}],\n\"nodes\":[\n{\"name\":\"skeleton\",\"translation\":[");
@@ -193,6 +195,11 @@ class Scene {
       text.Add(center[0], ',', center[2], ',', -center[1],
                "],\"rotation\":[-0.7071067811865476,0,0,0.7071067811865476]");
     }
+    for (const auto& [name, value] : facts) {
+      text.Add(&name == &facts.front().first ? ",\"extras\":{" : ",", JsonString(name), ':',
+               JsonString(value));
+    }
+    if (!facts.empty()) text.Add('}');
     if (meshes_ > 0) text.Add(",\"children\":[");
     for (size_t n = 1; n <= meshes_; ++n) text.Add(n == 1 ? "" : ",", n);
     text.Add(meshes_ > 0 ? "]}" : "}");
@@ -274,7 +281,8 @@ absl::StatusOr<Document> WriteGlb(const SkeletonGraph& graph, const GraphContext
     }
   }
   const std::string note = scene.joined() ? JoinedNote(graph.edges.size()) : "";
-  BCCSKEL_ASSIGN_OR_RETURN(std::string file, std::move(scene).File(center, world.axes == kYUp));
+  BCCSKEL_ASSIGN_OR_RETURN(std::string file,
+                           std::move(scene).File(center, world.axes == kYUp, context.facts));
   return Document{std::move(file), note};
 }
 

@@ -5,6 +5,7 @@
 
 #include "client/export/atomic_file.h"
 #include "client/export/json.h"
+#include "core/certificate/describe_changes.h"
 #include "core/exec/status_macros.h"
 #include "core/skeleton/skeleton_graph.h"
 
@@ -59,7 +60,8 @@ void LabeledSkeletons::Add(uint64_t label, uint64_t voxels, const SkeletonizeRes
   if (sizes_.empty()) {
     facts_ = MethodFactsOf(result, world_);
     // The effects of preparation differ from label to label.
-    std::erase_if(facts_, [](const auto& fact) { return fact.first == "prepared"; });
+    std::erase_if(
+        facts_, [](const auto& fact) { return fact.first == "prepared" || fact.first == "check"; });
     all_.options = result.options;
     all_.method = result.method;
     all_.algorithm_version = result.algorithm_version;
@@ -92,8 +94,10 @@ absl::Status LabeledSkeletons::AddObjects(const view::ObjectOfLabel& object,
 }
 
 GraphContext LabeledSkeletons::Context(const exec::Context& exec) const {
+  MethodFacts facts = facts_;
+  facts.emplace_back("check", VerdictInWords(all_.certificate));
   return {.labels = labels_,
-          .facts = facts_,
+          .facts = std::move(facts),
           .order = OrderOf(all_.graph, root_, exec.stop),
           .exec = exec};
 }

@@ -1,19 +1,24 @@
 #include "client/export/method_facts.h"
 
+#include <algorithm>
+
 #include "client/export/picture/escape.h"
 #include "client/export/text.h"
+#include "core/certificate/describe_changes.h"
 #include "core/pipeline/notes.h"
 #include "core/pipeline/option_words.h"
 
 namespace bccskel::exporting {
 namespace {
 
-void AddPreparing(const std::vector<PreparingStep>& steps, MethodFacts& facts) {
+void AddChanges(const std::vector<PreparingStep>& steps, const Certificate& certificate,
+                MethodFacts& facts) {
   std::string prepared;
   for (const PreparingStep& step : steps) {
     prepared += (prepared.empty() ? "" : ", ") + WordsFor(step);
   }
   if (!prepared.empty()) facts.emplace_back("prepared", prepared);
+  facts.emplace_back("check", VerdictInWords(certificate));
 }
 
 }  // namespace
@@ -24,7 +29,7 @@ MethodFacts MethodFactsOf(const SkeletonizeResult& result, const World& world) {
                        {"world", std::string(OrUnknown(world.axes))},
                        {"unit", std::string(OrUnknown(world.unit))}};
   for (const OptionFact& fact : FactsOf(result.options)) facts.emplace_back(fact.name, fact.value);
-  AddPreparing(result.preparing, facts);
+  AddChanges(result.preparing, result.certificate, facts);
   return facts;
 }
 
@@ -34,8 +39,17 @@ MethodFacts MethodFactsOf(const view::ResultFacts& result) {
                        {"world", result.world},
                        {"unit", result.unit}};
   facts.insert(facts.end(), result.options.begin(), result.options.end());
-  AddPreparing(result.steps, facts);
+  AddChanges(result.steps, result.certificate, facts);
   return facts;
+}
+
+std::string_view FactNamed(const MethodFacts& facts, std::string_view name) {
+  const auto found = std::ranges::find(facts, name, &MethodFacts::value_type::first);
+  return found == facts.end() ? std::string_view() : std::string_view(found->second);
+}
+
+void AddComments(Text& text, const MethodFacts& facts) {
+  for (const auto& [name, value] : facts) text.Add("# ", name, ": ", OnOneLine(value), '\n');
 }
 
 std::string OptionsJson(const SkeletonizeOptions& options) {

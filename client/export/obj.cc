@@ -7,10 +7,12 @@
 
 namespace bccskel::exporting {
 
-std::string ObjText(const SkeletonGraph& graph, const std::stop_token& stop) {
+std::string ObjText(const SkeletonGraph& graph, const GraphContext& context) {
+  const std::stop_token& stop = context.exec.stop;
   const Polylines polylines = PolylinesOf(graph, stop);
   Text text(stop);
   text.Add("# curve skeleton by bccskel\n");
+  AddComments(text, context.facts);
   for (const WorldPoint& p : polylines.places) {
     if (text.stopped()) break;
     text.Add("v ", p[0], ' ', p[1], ' ', p[2], '\n');

@@ -1,16 +1,17 @@
 #ifndef BCCSKEL_CLIENT_EXPORT_OBJ_H_
 #define BCCSKEL_CLIENT_EXPORT_OBJ_H_
 
-#include <stop_token>
 #include <string>
 
+#include "client/export/graph_context.h"
 #include "core/skeleton/skeleton_graph.h"
 
 namespace bccskel::exporting {
 
 // Wavefront OBJ: one `l` element per edge, its smooth curve, one `p` element per isolated node.
-// World coordinates; OBJ cannot hold radii.
-std::string ObjText(const SkeletonGraph& graph, const std::stop_token& stop = {});
+// World coordinates; OBJ cannot hold radii;
+// comments hold the facts of the context.
+std::string ObjText(const SkeletonGraph& graph, const GraphContext& context = {});
 
 }  // namespace bccskel::exporting
 

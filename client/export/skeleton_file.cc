@@ -119,13 +119,13 @@ std::optional<absl::StatusOr<Document>> ComposeGraph(SkeletonFormat format,
   const auto& [graph, context, world, sampling] = subject;
   switch (format) {
     case SkeletonFormat::kSwc:
-      return WriteSwc(graph, context.order, {sampling, world, context.exec.stop});
+      return WriteSwc(graph, context.order, {sampling, context.facts, context.exec.stop});
     case SkeletonFormat::kVtp:
       return WithoutNote(VtpText(graph, context));
     case SkeletonFormat::kGraphMl:
       return WithoutNote(GraphMlText(graph, context));
     case SkeletonFormat::kObj:
-      return WithoutNote(ObjText(graph, context.exec.stop));
+      return WithoutNote(ObjText(graph, context));
     case SkeletonFormat::kCsv:
       return WithoutNote(BranchTableText(graph, context));
     case SkeletonFormat::kMarkups:

@@ -6,7 +6,6 @@
 #include <string_view>
 #include <utility>
 
-#include "client/export/picture/escape.h"
 #include "client/export/point_forest.h"
 
 namespace bccskel::exporting {
@@ -79,9 +78,8 @@ void AddHeader(Text& text, const PointForest& forest, const SwcOptions& options,
   text.Add("# curve skeleton by bccskel, ", forest.trees,
            forest.trees == 1 ? " tree\n" : " trees\n");
   if (!note.empty()) text.Add("# ", note, '\n');
-  text.Add("# world: ", OnOneLine(OrUnknown(options.world.axes)),
-           "\n# unit: ", OnOneLine(OrUnknown(options.world.unit)),
-           "\n# curve: ", CurveWord(options.sampling), '\n');
+  AddComments(text, options.facts);
+  text.Add("# curve: ", CurveWord(options.sampling), '\n');
   text.Add("# types: ", roots == Roots::kSomas ? "1 soma, " : "",
            "6 end, 5 junction, 0 other\n# id type x y z radius parent\n");
 }

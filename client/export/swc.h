@@ -4,9 +4,9 @@
 #include <optional>
 #include <stop_token>
 
+#include "client/export/method_facts.h"
 #include "client/export/point_forest.h"
 #include "client/export/text.h"
-#include "client/export/world.h"
 #include "core/skeleton/skeleton_graph.h"
 #include "core/skeleton/tree_order.h"
 
@@ -14,7 +14,7 @@ namespace bccskel::exporting {
 
 struct SwcOptions {
   CurveSampling sampling = {};
-  World world = {};
+  MethodFacts facts = {};     // of the header
   std::stop_token stop = {};  // ends early; the text is then incomplete
 };
 

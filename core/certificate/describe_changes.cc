@@ -18,10 +18,19 @@ std::string DescribeChanges(const BettiNumbers& before, const BettiNumbers& afte
 
 std::string VerdictInWords(const Certificate& certificate) {
   if (!certificate.TopologyKept()) return "TOPOLOGY NOT KEPT";
-  if (!certificate.sampled) return "topology kept";
-  const std::string kept = "topology of the sampled object kept, sampling ";
-  if (certificate.MaskKept()) return kept + "may have changed the mask's";
-  return kept + "changed " + DescribeChanges(*certificate.mask, certificate.Given());
+  const bool prepared = certificate.Given() != certificate.input;
+  std::string changes;
+  if (!certificate.MaskKept()) {
+    changes = ", sampling changed " + DescribeChanges(*certificate.mask, certificate.Given());
+  } else if (certificate.sampled) {
+    changes = ", sampling may have changed the mask's";
+  }
+  if (prepared) {
+    changes += ", preparing changed " + DescribeChanges(certificate.Given(), certificate.input);
+  }
+  if (changes.empty()) return "topology kept";
+  return std::string("topology of the ") + (prepared ? "prepared" : "sampled") + " object kept" +
+         changes;
 }
 
 }  // namespace bccskel

@@ -11,7 +11,8 @@ namespace bccskel {
 // changed.
 std::string DescribeChanges(const BettiNumbers& before, const BettiNumbers& after);
 
-// What the certificate proves, in words: "topology kept", or what changed it.
+// What the certificate proves, in words: "topology kept", or which steps before thinning changed it
+// and how.
 std::string VerdictInWords(const Certificate& certificate);
 
 }  // namespace bccskel

@@ -75,11 +75,16 @@ function showCertificate() {
     ([, topology]) => `<td>${digits(topology[name])}</td>`).join("")}</tr>`).join("");
   const kept = kTopology.every((name) => input[name] === skeleton[name]);
   const given = unprepared ?? input;
-  const changes = !(sampled && mask) ? [] : kTopology.filter((name) => mask[name] !== given[name])
-    .map((name) => `${name} ${digits(mask[name])} \u2192 ${digits(given[name])}`);
-  element("verdict").className = kept && changes.length === 0 ? "" : "bad";
+  const changes = (step, from, to) => {
+    const changed = kTopology.filter((name) => from && from[name] !== to[name])
+      .map((name) => `${name} ${digits(from[name])} \u2192 ${digits(to[name])}`);
+    return changed.length > 0 ? [`${step} changed ${changed.join(", ")}`] : [];
+  };
+  const bySampling = changes("sampling", mask, given);
+  const made = [...bySampling, ...changes("preparing", given, input)].join("; ");
+  element("verdict").className = kept && bySampling.length === 0 ? "" : "bad";
   element("verdict").textContent = !kept ? "\u2717 TOPOLOGY NOT KEPT"
-    : changes.length > 0 ? `sampling changed ${changes.join(", ")}; kept from there on`
+    : made ? `${made}; kept from there on`
       : sampled ? "\u2713 kept from the sampled object on; sampling may have changed the image's"
         : "\u2713 topology kept";
   const digest = String(result.sha256 ?? "");

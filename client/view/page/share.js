@@ -16,11 +16,13 @@ function branchCsv() {
                 "branch_distance", "euclidean_distance", "tortuosity", "mean_radius", "min_radius",
                 "max_radius", "coord_src_x", "coord_src_y", "coord_src_z", "coord_dst_x",
                 "coord_dst_y", "coord_dst_z", "pruning_level",
-                ...(ordered ? ["generation", "strahler"] : [])];
+                ...(ordered ? ["generation", "strahler"] : []), "world", "unit"];
+  const quoted = (text) => /[",]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
+  const frame = [result.world, result.unit].map((text) => quoted(text ?? "unknown"));
   const rows = table.rows.map((b) => [
     ...(labels ? [partName(b.part)] : []), b.component, b.id, b.source, b.target, b.type, b.length, b.straight, b.tortuosity, b.mean,
     b.min, b.max, ...nodeAt[b.source].position, ...nodeAt[b.target].position, b.level,
-    ...(ordered ? [b.generation, b.strahler] : [])]);
+    ...(ordered ? [b.generation, b.strahler] : []), ...frame]);
   return [head, ...rows].map((row) => row.join()).join("\n") + "\n";
 }
 function saveCsv() {

@@ -12,6 +12,7 @@
 namespace bccskel::exporting {
 namespace {
 
+using testing::HasSubstr;
 using testing::IsEmpty;
 
 using Row = std::map<std::string, std::string>;
@@ -78,6 +79,18 @@ TEST(BranchTableTest, TellsTheLabelAndTheOrderWhereThereAre) {
   EXPECT_EQ(rows[0].at("label"), "18446744073709551615");
   EXPECT_EQ(rows[0].at("strahler"), "1");
   EXPECT_EQ(rows[1].at("strahler"), "");  // closes a loop
+}
+
+TEST(BranchTableTest, TellsWorldAndUnitInEachRow) {
+  const auto table_in = [](const World& world) {
+    return BranchTableText(Lollipop(), {.facts = MethodFactsOf(SkeletonizeResult(), world)});
+  };
+  for (const Row& row : RowsOf(table_in({.axes = "LPS", .unit = "mm"}))) {
+    EXPECT_EQ(row.at("world"), "LPS");
+    EXPECT_EQ(row.at("unit"), "mm");
+  }
+  EXPECT_EQ(RowsOf(BranchTableText(Lollipop()))[0].at("unit"), "unknown");
+  EXPECT_THAT(table_in({.axes = "a,b", .unit = "5\"\n"}), HasSubstr(",\"a,b\",\"5\"\" \"\n"));
 }
 
 TEST(BranchTableTest, AnEmptyGraphIsARowOfNames) {

@@ -236,6 +236,16 @@ TEST(GraphMlTest, SaysHowTheResultWasMade) {
   EXPECT_THAT(graphml, HasSubstr("<key id=\"graph_method\" for=\"graph\" attr.name=\"method\""));
   EXPECT_THAT(graphml, HasSubstr("<data key=\"graph_method\">by hand</data>"));
   EXPECT_THAT(graphml, HasSubstr("<data key=\"graph_prepared\">2 cavities filled</data>"));
+  EXPECT_THAT(graphml,
+              HasSubstr("<data key=\"graph_check\">topology of the prepared object kept, "
+                        "preparing changed components 3 -&gt; 2, cavities 2 -&gt; 0</data>"));
+}
+
+TEST(ObjTest, SaysHowTheResultWasMade) {
+  const std::string obj = ObjText(Lollipop(), {.facts = MethodFactsOf(Prepared())});
+  EXPECT_THAT(obj, HasSubstr("\n# method: by hand\n"));
+  EXPECT_THAT(obj, HasSubstr("\n# unit: unknown\n"));
+  EXPECT_THAT(obj, HasSubstr("\n# check: topology of the prepared object kept, "));
 }
 
 TEST(GraphMlTest, GivesEachKeyAnIdentifierOfItsOwn) {

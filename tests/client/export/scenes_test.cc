@@ -170,6 +170,18 @@ TEST(GlbTest, TurnsTheWorldUnlessItsYPointsUp) {
   EXPECT_EQ(z_up["translation"][1], y_up["translation"][2]);
 }
 
+TEST(GlbTest, SaysHowTheResultWasMadeInWhichWorldAndUnit) {
+  SkeletonizeResult result;
+  result.method = "by \"hand\"";
+  const MethodFacts facts = MethodFactsOf(result, {.axes = "RAS", .unit = "mm"});
+  const Json scene = SceneOf(WriteGlb(Lollipop(), {.facts = facts})->text);
+  const Json& extras = scene["nodes"][0]["extras"];
+  EXPECT_EQ(extras["method"], "by \"hand\"");
+  EXPECT_EQ(extras["world"], "RAS");
+  EXPECT_EQ(extras["unit"], "mm");
+  EXPECT_EQ(extras["check"], "topology kept");
+}
+
 TEST(GlbTest, NothingIsAnEmptyScene) {
   EXPECT_EQ(SceneOf(WriteGlb(SkeletonGraph())->text)["nodes"].size(), 1);
 }

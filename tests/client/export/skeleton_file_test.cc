@@ -130,10 +130,10 @@ TEST(ComposingTest, EndsAfterAStop) {
     context_of_job.stop = token;
     const GraphContext context = {.labels = {}, .facts = {}, .order = {}, .exec = context_of_job};
     return std::vector<size_t>{
-        WriteSwc(graph, std::nullopt, {.sampling = {}, .world = {}, .stop = token}).text.size(),
+        WriteSwc(graph, std::nullopt, {.sampling = {}, .facts = {}, .stop = token}).text.size(),
         VtpText(graph, context).size(),
         GraphMlText(graph, context).size(),
-        ObjText(graph, token).size(),
+        ObjText(graph, context).size(),
         JsonText(sample.result, std::nullopt, {}, JsonParts::kAll, context_of_job).size(),
         BranchTableText(graph, context).size(),
         WriteMarkups(graph, context, {}).text.size(),

@@ -195,14 +195,19 @@ TEST(SwcTest, WritesNoMoreDigitsThanTheLatticeIsWorth) {
   }
 }
 
-TEST(SwcTest, TellsWorldAndUnit) {
-  const std::string text =
-      WriteSwc(Lollipop(), std::nullopt, {.world = {.axes = "RAS", .unit = "mm"}}).text;
-  EXPECT_THAT(text, HasSubstr("# world: RAS\n# unit: mm\n"));
-  const SwcOptions wild = {.world = {.axes = "a\rb", .unit = "mm\n1 0 0 0 0 1 -1"}};
-  EXPECT_THAT(WriteSwc(Lollipop(), std::nullopt, wild).text,
+TEST(SwcTest, SaysHowTheResultWasMadeInWhichWorldAndUnit) {
+  SkeletonizeResult result;
+  result.certificate = {
+      .mask = BettiNumbers{1, 2, 0}, .input = {1, 1, 0}, .skeleton = {1, 1, 0}, .sampled = true};
+  const auto text_in = [&](const World& world) {
+    return WriteSwc(Lollipop(), std::nullopt, {.facts = MethodFactsOf(result, world)}).text;
+  };
+  EXPECT_THAT(text_in({.axes = "RAS", .unit = "mm"}), HasSubstr("# world: RAS\n# unit: mm\n"));
+  EXPECT_THAT(text_in({.axes = "a\rb", .unit = "mm\n1 0 0 0 0 1 -1"}),
               HasSubstr("# world: a b\n# unit: mm 1 0 0 0 0 1 -1\n#"));
-  EXPECT_THAT(WriteSwc(Lollipop()).text, HasSubstr("# world: unknown\n# unit: unknown\n"));
+  EXPECT_THAT(text_in({}), HasSubstr("# world: unknown\n# unit: unknown\n"));
+  EXPECT_THAT(text_in({}), HasSubstr("# check: topology of the sampled object kept, sampling "
+                                     "changed loops 2 -> 1\n# curve: smooth\n"));
 }
 
 TEST(SwcTest, CutsALoopOnceAndSaysSo) {
