@@ -59,14 +59,11 @@ void ReadLabels(const std::string& given, std::vector<uint64_t>& labels) {
     refuse(std::string("must be a whole number from 1 on or a range, such as 3,7 or 1-85") +
            (given.starts_with('-') ? "; skeletonize takes negative values with --range" : ""));
   }
-  const uint64_t low = *first, high = *last;
+  uint64_t low = *first;
+  const uint64_t high = *last;
   if (low > high) refuse("the first label is above the last");
-  if (low == 0) {
-    refuse(dash == given.npos
-               ? "0 is the background; skeletonize selects its voxels with --range 0,0"
-               : "0 is the background; labels are counted from 1, so write 1-" +
-                     std::to_string(high));
-  }
+  if (high == 0) refuse("0 is the background; skeletonize selects its voxels with --range 0,0");
+  low = std::max<uint64_t>(low, 1);
   if (high - low >= kMostOfRange) {
     refuse("is more than " + std::to_string(kMostOfRange) + " labels; skeletonize has --range");
   }
@@ -87,7 +84,9 @@ CLI::Option* AddLabelList(CLI::App& command, ImageArguments& arguments, const ch
 
 void AddForeground(CLI::App& command, ImageArguments& arguments) {
   CLI::Option* labels =
-      AddLabelList(command, arguments, "Voxels of these labels, such as 3,7 or 1-85");
+      AddLabelList(command, arguments,
+                   "Voxels of these labels, such as 3,7 or 1-85; ranges leave out 0, the "
+                   "background");
   CLI::Option* range =
       command
           .add_option("--range", arguments.range,

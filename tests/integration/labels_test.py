@@ -216,6 +216,10 @@ class LabelsTest(harness.TestCase):
         summary = self.labels("--label", "3-9", "-o", self.path("a.vtp"))
         self.assertEqual([label["label"] for label in summary["labels"]], [3, 8])
 
+    def test_a_range_may_begin_at_the_background_which_is_left_out(self):
+        summary = self.labels("--label", "0-9", "-o", self.path("a.vtp"))
+        self.assertEqual([label["label"] for label in summary["labels"]], [1, 3, 8])
+
     def test_info_tells_labels_counts_and_range(self):
         done = harness.bccskel("info", self.image, "--json")
         image = json.loads(done.stdout)["image"]
