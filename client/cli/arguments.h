@@ -35,6 +35,7 @@ namespace bccskel::cli {
 struct CommonArguments {
   SummaryStyle summary = SummaryStyle::kText;
   int threads = 0;  // 0: all of the machine, or the server's choice
+  ProgressStyle progress = ProgressStyle::kAuto;
 };
 
 // The server and the credentials for it. Paths of files, as given.
@@ -76,7 +77,6 @@ struct ComputeArguments {
   Place place = Place::kServer;
   ServerArguments server;
   std::chrono::milliseconds timeout = std::chrono::hours(1);
-  ProgressStyle progress = ProgressStyle::kAuto;
 };
 
 struct SkeletonizeArguments : ComputeArguments {

@@ -59,16 +59,16 @@ void AddThreads(CLI::App& command, CommonArguments& common, const char* descript
 
 void AddCommonHere(CLI::App& command, CommonArguments& common) {
   AddThreads(command, common, kThreadsHere);
+  AddProgress(command, common.progress);
   AddJson(command, common);
 }
 
 void AddProgress(CLI::App& command, ProgressStyle& progress) {
-  AddChoice<ProgressStyle>(
-      command, "--progress", progress,
-      "Show progress by shell on standard error; auto (default): on a terminal",
-      {{"auto", ProgressStyle::kAuto},
-       {"always", ProgressStyle::kAlways},
-       {"never", ProgressStyle::kNever}});
+  AddChoice<ProgressStyle>(command, "--progress", progress,
+                           "Show progress on standard error; auto (default): on a terminal",
+                           {{"auto", ProgressStyle::kAuto},
+                            {"always", ProgressStyle::kAlways},
+                            {"never", ProgressStyle::kNever}});
 }
 
 CLI::Option* AddSeconds(CLI::App& command, const char* name, std::chrono::milliseconds& time,
@@ -125,7 +125,7 @@ void AddPlace(CLI::App& command, ServerArguments& server, Place& place) {
 void AddComputing(CLI::App& command, ComputeArguments& arguments) {
   AddSkeletonOptions(command, arguments.skeletonize, arguments.root);
   AddThreads(command, arguments.common, kThreadsBoth);
-  AddProgress(command, arguments.progress);
+  AddProgress(command, arguments.common.progress);
   AddSeconds(command, "--timeout", arguments.timeout,
              "Give up after this many seconds (default 3600)");
   AddJson(command, arguments.common);

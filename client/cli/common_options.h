@@ -26,7 +26,7 @@ inline constexpr const char* kThreadsBoth =
 void AddJson(CLI::App& command, CommonArguments& common);
 // --threads
 void AddThreads(CLI::App& command, CommonArguments& common, const char* description);
-// --threads of this machine and --json
+// --threads of this machine, --progress and --json
 void AddCommonHere(CLI::App& command, CommonArguments& common);
 // --progress
 void AddProgress(CLI::App& command, ProgressStyle& progress);

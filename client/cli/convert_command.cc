@@ -106,6 +106,7 @@ void AddConvert(CLI::App& command, ConvertArguments& arguments) {
       });
   AddRoot(command, arguments.root);
   AddSwcStep(command, arguments.swc);
+  AddProgress(command, arguments.common.progress);
   AddJson(command, arguments.common);
 }
 
@@ -115,7 +116,7 @@ ExitCode Run(const ConvertArguments& arguments, const std::stop_token& stop) {
                     absl::InvalidArgumentError("--root orders the other formats; .json, .svg, .png "
                                                "and .html show the result as it is"));
   }
-  const ProgressBar bar(ProgressStyle::kAuto);
+  const ProgressBar bar(arguments.common.progress);
   bar.Begin("reading", arguments.result);
   const absl::StatusOr<view::ResultDocument> document =
       view::ReadResultDocument(arguments.result, stop);

@@ -302,7 +302,7 @@ void AddLabels(CLI::App& command, LabelsArguments& arguments) {
 ExitCode Run(const LabelsArguments& arguments, const std::stop_token& stop) {
   const Clock::time_point start = Clock::now();
   LocalTeam team(arguments.common.threads, stop);
-  ProgressBar bar(arguments.progress);
+  ProgressBar bar(arguments.common.progress);
   bar.Begin("reading", arguments.input);
   const absl::StatusOr<CollectedLabels> labels = Load(arguments, team.context());
   if (!labels.ok()) return Fail(labels.status());

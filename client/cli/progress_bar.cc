@@ -51,7 +51,7 @@ std::string PhaseText(std::string_view phase, std::string_view path) {
   path.remove_prefix(path.rfind('/') + 1);  // npos + 1 is 0
   std::string text(phase);
   if (!path.empty()) text += ' ' + std::string(path.substr(0, kMostOfName));
-  return text + (path.size() > kMostOfName ? "...  " : "  ");
+  return text + (path.size() > kMostOfName ? "..." : "");
 }
 
 std::string ShellText(const exec::ShellProgress& progress) {
@@ -111,7 +111,8 @@ ProgressBar::~ProgressBar() { EndProgressLine(); }
 void ProgressBar::Begin(std::string_view phase, std::string_view path) const {
   const std::lock_guard lock(shown_line.mutex);
   EndLine(shown_line);
-  if (form_ == Form::kBar) shown_line.text = PhaseText(phase, path);
+  if (form_ == Form::kBar) shown_line.text = PhaseText(phase, path) + "  ";
+  if (form_ == Form::kLines) std::fprintf(stderr, "%s\n", PhaseText(phase, path).c_str());
   shown_line.stays = false;
   shown_line.start = shown_line.drawn = ProgressClock::now();
 }

@@ -28,8 +28,8 @@ class ProgressBar {
   ProgressBar& operator=(const ProgressBar&) = delete;
 
   // Begins a phase, such as "reading a.off", where only the last part of the path is shown. It ends
-  // with the next one, a callback or a message. Only terminals show phases, and only after half a
-  // second.
+  // with the next one, a callback or a message. Terminals show it after half a second, logs at
+  // once.
   void Begin(std::string_view phase, std::string_view path = {}) const;
 
   // Begin the phase before the first call, and return callbacks for after each shell, or for the

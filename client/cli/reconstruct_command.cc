@@ -42,7 +42,7 @@ void AddReconstruct(CLI::App& command, ReconstructArguments& arguments) {
 
 ExitCode Run(const ReconstructArguments& arguments, const std::stop_token& stop) {
   LocalTeam team(arguments.common.threads, stop);
-  const ProgressBar bar(ProgressStyle::kAuto);
+  const ProgressBar bar(arguments.common.progress);
   const absl::StatusOr<ResultAndObject> loaded =
       LoadResultAndObject(arguments, bar, team.context());
   if (!loaded.ok()) return Fail(loaded.status());

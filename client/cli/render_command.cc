@@ -119,7 +119,7 @@ ExitCode Run(const RenderArguments& arguments, const std::stop_token& stop) {
                                                "has one size and three views"));
   }
   LocalTeam team(arguments.common.threads, stop);
-  const ProgressBar bar(ProgressStyle::kAuto);
+  const ProgressBar bar(arguments.common.progress);
   const absl::StatusOr<ResultAndObject> loaded =
       LoadResultAndObject(arguments, bar, team.context());
   if (!loaded.ok()) return Fail(loaded.status());

@@ -353,7 +353,7 @@ ExitCode RunShared(const SharedWork& work, const SkeletonizeArguments& given,
                    const std::stop_token& stop) {
   const Clock::time_point start = Clock::now();
   LocalTeam team(given.common.threads, stop);
-  ProgressBar bar(given.progress);
+  ProgressBar bar(given.common.progress);
   bar.Begin("reading", given.input);
   absl::StatusOr<Object> object = LoadOrMake(given, work, team.context());
   if (!object.ok()) return Fail(object.status());

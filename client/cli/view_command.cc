@@ -53,7 +53,7 @@ void AddView(CLI::App& command, ViewArguments& arguments) {
 
 ExitCode Run(const ViewArguments& arguments, const std::stop_token& stop) {
   LocalTeam team(arguments.common.threads, stop);
-  const ProgressBar bar(ProgressStyle::kAuto);
+  const ProgressBar bar(arguments.common.progress);
   const absl::StatusOr<ResultAndObject> loaded =
       LoadResultAndObject(arguments, bar, team.context());
   if (!loaded.ok()) return Fail(loaded.status());

@@ -89,7 +89,7 @@ void AddVoxelize(CLI::App& command, VoxelizeArguments& arguments) {
 
 ExitCode Run(const VoxelizeArguments& arguments, const std::stop_token& stop) {
   LocalTeam team(arguments.common.threads, stop);
-  const ProgressBar bar(ProgressStyle::kAuto);
+  const ProgressBar bar(arguments.common.progress);
   bar.Begin("reading", arguments.input);
   const absl::StatusOr<Voxelized> result = Load(arguments, team.context());
   if (!result.ok()) return Fail(result.status());

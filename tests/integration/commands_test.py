@@ -140,6 +140,7 @@ class CommandsTest(harness.TestCase):
         self.assertEqual(mesh["kind"], "mesh")
         self.assertEqual(mesh["mesh"]["genus"], 0)
         self.assertTrue(mesh["mesh"]["watertight"])
+        self.assertEqual(mesh["mesh"]["crossings"], 0)
         volume = json.loads(self.succeed("info", self.generate("hollow-ball"), "--json"))
         self.assertEqual(volume["volume"]["topology"],
                          {"components": 1, "loops": 0, "cavities": 1})
@@ -166,7 +167,28 @@ class CommandsTest(harness.TestCase):
         done = harness.bccskel(*command, "--progress", "always")
         self.assertEqual(done.returncode, 0)
         self.assertRegex(done.stderr, r"shell 1/\d+ .* points removed, .* left")
+        self.assertTrue(done.stderr.startswith("reading "), done.stderr)
         self.assertNotIn("\r", done.stderr)
+
+    def test_every_command_that_can_take_long_tells_a_log_what_it_does(self):
+        volume, result = self.generate("tree"), self.path("a.json")
+        reading = "reading " + os.path.basename(volume)
+        self.succeed("skeletonize", volume, "--local", "-o", result)
+        for words, phases in (
+                (("view", result, "--object", volume, "-o", self.path("a.html")),
+                 ["reading a.json", reading, "peeling the object for the page",
+                  "writing a.html"]),
+                (("render", result, "--object", volume, "-o", self.path("a.png")),
+                 ["reading a.json"]),
+                (("convert", result, "-o", self.path("b.csv")), ["reading a.json", "writing b.csv"]),
+                (("info", volume), [reading]),
+                (("voxelize", self.tetrahedron("a.off"), "--points", "1000", "-o",
+                  self.path("b.exr")), ["reading a.off"])):
+            with self.subTest(words[0]):
+                done = harness.bccskel(*words, "--progress", "always")
+                self.assertEqual(done.returncode, 0, done.stderr)
+                lines = done.stderr.splitlines()
+                self.assertEqual([line for line in phases if line not in lines], [], lines)
 
     def test_a_terminal_gets_a_bar_that_ends_in_a_clean_line(self):
         volume = self.generate("tree")

@@ -207,13 +207,20 @@ class ExitCodesTest(harness.TestCase):
         self.fail_with(3, "is a folder", "probe", "--server", "localhost:1", "--token-file",
                        self.folder)
 
+    def await_shell(self, client):
+        """Until the client has told its first shell: it computes."""
+        for line in client.stderr:
+            if "shell 1/" in line:
+                return
+        self.fail("ended before its first shell")
+
     def test_130_and_143_cancel_the_job_on_the_server(self):
         volume = self.long_job()
         for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
             with harness.Server(self.folder, name=f"server{code}") as server:
                 client = self.start(*self.skeletonize(volume, "--server", server.address,
                                                       "--threads", 1, "--progress", "always"))
-                client.stderr.readline()  # the first shell: it computes
+                self.await_shell(client)
                 client.send_signal(number)
                 _, error = client.communicate(timeout=300)
                 self.assertEqual(client.returncode, code, error)
@@ -224,7 +231,7 @@ class ExitCodesTest(harness.TestCase):
     def test_130_on_this_machine(self):
         client = self.start(*self.skeletonize(self.long_job(), "--local", "--threads", 1,
                                               "--progress", "always"))
-        client.stderr.readline()  # the first shell: it computes
+        self.await_shell(client)
         client.send_signal(signal.SIGINT)
         _, error = client.communicate(timeout=300)
         self.assertEqual(client.returncode, 130, error)

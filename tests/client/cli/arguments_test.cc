@@ -168,7 +168,7 @@ TEST(ArgumentsTest, SkeletonizeTakesAllItsOptions) {
   EXPECT_EQ(arguments.skeletonize.thinning.last_shell, 9);
   EXPECT_EQ(arguments.skeletonize.thinning.cleanup, ThinnessCleanup::kOff);
   EXPECT_EQ(arguments.common.threads, 3);
-  EXPECT_EQ(arguments.progress, ProgressStyle::kAlways);
+  EXPECT_EQ(arguments.common.progress, ProgressStyle::kAlways);
   EXPECT_EQ(arguments.timeout, std::chrono::milliseconds(1500));
   EXPECT_EQ(arguments.common.summary, SummaryStyle::kJson);
 }
@@ -262,7 +262,7 @@ TEST(ArgumentsTest, DefaultsSuitAUserOfThisMachine) {
   EXPECT_EQ(arguments.timeout, std::chrono::hours(1));
   EXPECT_EQ(arguments.common.threads, 0);
   EXPECT_EQ(arguments.common.summary, SummaryStyle::kText);
-  EXPECT_EQ(arguments.progress, ProgressStyle::kAuto);
+  EXPECT_EQ(arguments.common.progress, ProgressStyle::kAuto);
   EXPECT_EQ(arguments.grid.points, std::nullopt);
 }
 
