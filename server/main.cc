@@ -64,16 +64,16 @@ void LimitFreeMemory() {
 }
 
 void ServeUntilStopped(const sigset_t& signals, Server& server) {
-  constexpr timespec kBetweenLooks = {.tv_sec = 1, .tv_nsec = 0};
-  constexpr int kLooksBetweenTrims = 30;
-  for (int looks = 1;; ++looks) {
-    if (looks % kLooksBetweenTrims == 0) {
+  constexpr timespec kBetweenChecks = {.tv_sec = 1, .tv_nsec = 0};
+  constexpr int kChecksBetweenTrims = 30;
+  for (int checks = 1;; ++checks) {
+    if (checks % kChecksBetweenTrims == 0) {
       exec::ProcessLargeBlocks().ReleaseUnused();
       malloc_trim(0);  // frees pages between blocks in use
     }
     server.UpdateDataHealth();
     server.EnforceCallLimits();
-    const int received = sigtimedwait(&signals, nullptr, &kBetweenLooks);
+    const int received = sigtimedwait(&signals, nullptr, &kBetweenChecks);
     if (received == SIGTERM || received == SIGINT) return;
     if (received == SIGHUP) {
       server.ReloadNow();

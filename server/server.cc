@@ -337,12 +337,12 @@ void Server::TakeTokens(const absl::StatusOr<Reload>& reload) {
 
 void Server::WaitLameDuckTime() {
   using Clock = std::chrono::steady_clock;
-  constexpr std::chrono::seconds kBetweenLooks(1);
+  constexpr std::chrono::seconds kBetweenChecks(1);
   const Clock::time_point end = Clock::now() + config_.lame_duck;
   for (Clock::time_point now = Clock::now(); now < end; now = Clock::now()) {
     ReloadIfChanged();
     EnforceCallLimits();
-    std::this_thread::sleep_for(std::min<Clock::duration>(kBetweenLooks, end - now));
+    std::this_thread::sleep_for(std::min<Clock::duration>(kBetweenChecks, end - now));
   }
 }
 

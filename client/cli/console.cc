@@ -70,8 +70,8 @@ client::ConnectionFault FaultOf(const ServerArguments& server, const absl::Statu
 std::string ReachHint(client::ConnectionFault fault, std::string_view local) {
   switch (fault) {
     case client::ConnectionFault::kServerHasNoTls:
-      return "the server has no TLS: start it with --tls-cert and --tls-key, or leave out --tls-ca "
-             "where nobody else can read along";
+      return "the server has no TLS: start it with --tls-cert and --tls-key, or omit --tls-ca "
+             "if the network is trusted";
     case client::ConnectionFault::kNotTrusted:
       return "name the authority that signed the server's certificate with --tls-ca";
     case client::ConnectionFault::kMayWantTls:

@@ -33,12 +33,12 @@ absl::StatusOr<std::string> MakePathFor(const std::string& path, uint64_t label)
 absl::Status CheckLabelOutput(const std::string& path) {
   BCCSKEL_ASSIGN_OR_RETURN(const SkeletonFormat format, SkeletonFormatOf(path));
   if (IsForEachLabel(path) || HoldsManyLabels(format)) return absl::OkStatus();
-  return absl::InvalidArgumentError(absl::StrCat(path, ": this format holds one label; write ",
-                                                 kLabelPlace,
-                                                 " where its number shall stand, or put all labels "
-                                                 "into a .vtp, .graphml, .json, .csv, .glb, "
-                                                 ".html, .svg, .png or .mrk.json file or a "
-                                                 ".precomputed folder"));
+  return absl::InvalidArgumentError(
+      absl::StrCat(path, ": this format holds one label; write ", kLabelPlace,
+                   " where the label's number goes, or put all labels "
+                   "into a .vtp, .graphml, .json, .csv, .glb, "
+                   ".html, .svg, .png or .mrk.json file or a "
+                   ".precomputed folder"));
 }
 
 }  // namespace bccskel::exporting

@@ -6,10 +6,10 @@
 namespace bccskel {
 
 bool OrderedDelivery::WaitForTurn(size_t index, const exec::Context& context) {
-  constexpr auto kBetweenLooks = std::chrono::milliseconds(10);
+  constexpr auto kBetweenChecks = std::chrono::milliseconds(10);
   std::unique_lock lock(mutex_);
   while (status_.ok() && index >= next_ + window_ && !context.ShouldStop()) {
-    moved_.wait_for(lock, kBetweenLooks);
+    moved_.wait_for(lock, kBetweenChecks);
   }
   if (status_.ok()) status_ = context.StopStatus();
   return status_.ok();

@@ -38,7 +38,7 @@ class UploadWriters {
       return writer->OnTurn(TurnAt(key));
     }
     const std::shared_ptr<Writer> waited = std::exchange(place->second.next, writer);
-    // If a writer waited already, the holder has been told to release its turn.
+    // If a writer waited already, the holder knows that it must release its turn.
     const std::shared_ptr<Writer> holder =
         waited == nullptr ? place->second.holder.lock() : nullptr;
     lock.unlock();

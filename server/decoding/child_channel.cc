@@ -33,10 +33,10 @@ struct RequestMessage {
 }  // namespace
 
 absl::Status ChildChannel::WaitFor(short events, const KeepWaiting& keep_waiting) const {
-  constexpr int kBetweenLooksMs = 20;
+  constexpr int kBetweenChecksMs = 20;
   if (keep_waiting) BCCSKEL_RETURN_IF_ERROR(keep_waiting());
   pollfd entry = {.fd = socket_.get(), .events = events, .revents = 0};
-  poll(&entry, 1, keep_waiting ? kBetweenLooksMs : -1);
+  poll(&entry, 1, keep_waiting ? kBetweenChecksMs : -1);
   return absl::OkStatus();
 }
 

@@ -43,7 +43,7 @@ class FleetMembers {
   void Forget() { seen_.clear(); }
 
  private:
-  // After a longer gap between looks, heartbeats may have been missed: start over.
+  // After a longer pause, heartbeats may have been missed: start over.
   static constexpr std::chrono::milliseconds kLongestGap{2500};
   struct Sign {
     int64_t beats = 0;        // the last count seen

@@ -33,7 +33,7 @@ absl::StatusOr<Caller> Callers::Identify(std::optional<std::string_view> authori
   if (path_.empty()) return Caller{.tenant = kDefaultTenant, .role = Role::kAdmin};
   if (!authorization.has_value()) {
     return absl::UnauthenticatedError(
-        "this server wants a token: metadata \"authorization\" with \"Bearer TOKEN\"");
+        "this server requires a token (metadata \"authorization: Bearer TOKEN\")");
   }
   const std::optional<std::string_view> token = BearerToken(*authorization);
   const std::optional<Caller> caller =

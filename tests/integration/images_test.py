@@ -151,9 +151,9 @@ class ImagesTest(harness.TestCase):
         values = json.loads(self.succeed("info", volume, "--json"))["image"]["values"]
         self.assertEqual(values["labels"], [{"label": 5, "voxels": int((mask == 5).sum())}])
         self.fail_with(3, "level 1 is not there", "info", zarr, "--level", 1)
-        self.fail_with(2, "--channel and --time choose in TIFF and OME-Zarr only", "info", volume,
+        self.fail_with(2, "--channel and --time apply only to TIFF and OME-Zarr", "info", volume,
                        "--channel", 0)
-        self.fail_with(2, "--level chooses in OME-Zarr and precomputed folders only", "info",
+        self.fail_with(2, "--level applies only to OME-Zarr and precomputed folders", "info",
                        self.path("mask.npy"), "--level", 0)
 
     def test_several_labels_taken_for_one_object_are_warned_of(self):

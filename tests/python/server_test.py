@@ -111,7 +111,7 @@ class TlsTest(harness.TestCase):
         plain = self.enterContext(harness.Server(self.folder, listen="127.0.0.1:0")).address
         encrypted = self.serve()
         for address, tls, why in (
-                (plain, ours, "it has no TLS: leave out tls= where nobody else can read along$"),
+                (plain, ours, "it has no TLS: omit tls= if the network is trusted$"),
                 (encrypted, theirs, "give the authority that signed its certificate as tls=$"),
                 (encrypted, None, "if it wants TLS, give tls= to Client$")):
             with self.assertRaisesRegex(ConnectionError, f"^server {address}: .*; {why}"):
@@ -134,9 +134,9 @@ class TlsTest(harness.TestCase):
         self.assertIn("algorithm_version", describe(mine, token=f" {token}\r\n"))
         with self.assertRaises(PermissionError):
             describe(mine, token=token[::-1])
-        with self.assertRaisesRegex(PermissionError, "token= of Client"):
+        with self.assertRaisesRegex(PermissionError, "give token= to Client"):
             describe(mine)
-        with self.assertRaisesRegex(PermissionError, "token= of Client"):
+        with self.assertRaisesRegex(PermissionError, "give token= to Client"):
             bccskel.Client(address, tls=(authority, mine.certificate, mine.key)).skeletonize(
                 crossing_bars(), timeout=20)
         for pair in (others, None):

@@ -401,14 +401,14 @@ class Client(_Functions):
         """Names the arguments that an error asks for."""
         try:
             yield
-        except PermissionError as error:
+        except PermissionError:
             if self._has_token:
                 raise
-            raise PermissionError(f"{error}: give it as token= of Client") from None
+            raise PermissionError("the server requires a token: give token= to Client") from None
         except ConnectionError as error:
             fault = _native.connection_fault(str(error), self.address, self._has_tls)
             hints = {_native.ConnectionFault.SERVER_HAS_NO_TLS:
-                     "it has no TLS: leave out tls= where nobody else can read along",
+                     "it has no TLS: omit tls= if the network is trusted",
                      _native.ConnectionFault.NOT_TRUSTED:
                      "give the authority that signed its certificate as tls=",
                      _native.ConnectionFault.MAY_WANT_TLS: "if it wants TLS, give tls= to Client"}

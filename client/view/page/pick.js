@@ -164,7 +164,7 @@ function showPins() {
   pinMark.show(branches);
   element("pins").hidden = branches.length === 0;
   element("pinned").innerHTML = branches.map((b) => `<tr data-branch="${b.id}">
-    <th><button class="go" title="Show it in the middle">${b.id}</button></th>
+    <th><button class="go" title="Center the view on this branch">${b.id}</button></th>
     <td>${figure(b.length)}</td><td>${figure(b.mean)}</td>
     <td>${figure(b.min)} \u2013 ${figure(b.max)}</td>
     <td>${b.tortuosity === undefined ? "" : figure(b.tortuosity)}</td><td>${b.kinds}</td>

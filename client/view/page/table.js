@@ -37,7 +37,7 @@ const table = { about: "branches", rows: [],
                 at: 0, filter: "" };
 const kRow = 28;  // pixels, as in style.css
 
-// `12 end length>5`: numbers are ids, words match the text, and all must hold.
+// `12 end length>5`: numbers are ids, words match the text, and a row must match all.
 function filterOf(text, columns) {
   const tests = text.toLowerCase().split(/\s+/).filter(Boolean).map((term) => {
     const [, name, sign, limit] = term.match(/^([a-z]+)(<=|>=|<|>|=)(-?[\d.]+(?:e-?\d+)?)$/) ?? [];

@@ -278,12 +278,12 @@ absl::StatusOr<std::vector<DicomFrame>> FramesOf(const Headers& files,
 absl::StatusOr<std::unique_ptr<ImageSource>> OpenDicom(const std::string& path,
                                                        const ImageOptions& options) {
   if (options.time.has_value() || options.level.has_value()) {
-    return absl::InvalidArgumentError("--time and --level do not choose in DICOM");
+    return absl::InvalidArgumentError("--time and --level do not apply to DICOM");
   }
   BCCSKEL_ASSIGN_OR_RETURN(Headers files, DicomFilesOf(path, options));
   const bool segments = files.front().kind == DicomKind::kSegmentation;
   if (options.channel.has_value() && !segments) {
-    return absl::InvalidArgumentError("--channel chooses in segmentations of DICOM only");
+    return absl::InvalidArgumentError("--channel applies only to segmentations of DICOM");
   }
   BCCSKEL_ASSIGN_OR_RETURN(std::vector<DicomFrame> frames, FramesOf(files, options.channel));
   BCCSKEL_ASSIGN_OR_RETURN(

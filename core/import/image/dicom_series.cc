@@ -86,7 +86,7 @@ absl::StatusOr<std::vector<DicomHeader>> DicomFilesOf(const std::string& path,
     return ChosenSeries(std::move(all), options.series);
   }
   if (options.series.has_value()) {
-    return absl::InvalidArgumentError("--series chooses in folders of DICOM only");
+    return absl::InvalidArgumentError("--series applies only to folders of DICOM files");
   }
   BCCSKEL_ASSIGN_OR_RETURN(DicomHeader header, ReadDicomHeader(path));
   if (header.kind == DicomKind::kOther) {

@@ -109,16 +109,16 @@ constexpr Choices kDicomChoices = {.pages = true, .series = true};  // pages: se
 
 absl::Status CheckChoices(const Choices& there, const ImageOptions& options) {
   if (options.level.has_value() && !there.levels) {
-    return absl::InvalidArgumentError("--level chooses in OME-Zarr and precomputed folders only");
+    return absl::InvalidArgumentError("--level applies only to OME-Zarr and precomputed folders");
   }
   if (options.series.has_value() && !there.series) {
-    return absl::InvalidArgumentError("--series chooses in folders of DICOM only");
+    return absl::InvalidArgumentError("--series applies only to folders of DICOM files");
   }
   if (options.array.has_value() && !there.arrays) {
-    return absl::InvalidArgumentError("--array chooses in .npz files only");
+    return absl::InvalidArgumentError("--array applies only to .npz files");
   }
   if ((options.channel.has_value() || options.time.has_value()) && !there.pages) {
-    return absl::InvalidArgumentError("--channel and --time choose in TIFF and OME-Zarr only");
+    return absl::InvalidArgumentError("--channel and --time apply only to TIFF and OME-Zarr");
   }
   return absl::OkStatus();
 }

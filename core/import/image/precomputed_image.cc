@@ -210,7 +210,7 @@ bool IsPrecomputedFolder(const std::string& folder) {
 absl::StatusOr<std::unique_ptr<ImageSource>> OpenPrecomputed(const std::string& folder,
                                                              const ImageOptions& options) {
   if (options.channel.has_value() || options.time.has_value()) {
-    return absl::InvalidArgumentError("--channel and --time choose in TIFF and OME-Zarr only");
+    return absl::InvalidArgumentError("--channel and --time apply only to TIFF and OME-Zarr");
   }
   BCCSKEL_ASSIGN_OR_RETURN(const auto info, ReadJson(folder + kInfo, options.limits));
   if (!info.has_value()) return absl::NotFoundError("the file info is gone");

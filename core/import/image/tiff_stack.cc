@@ -265,7 +265,7 @@ absl::StatusOr<TiffStack> TiffStackOf(std::string_view description, int64_t page
   }
   if (options.channel.value_or(0) != 0 || options.time.value_or(0) != 0) {
     return absl::InvalidArgumentError(
-        "--channel and --time choose in files whose description names their axes (OME, ImageJ, "
+        "--channel and --time apply to files whose description names their axes (OME, ImageJ, "
         "tifffile); this one names none");
   }
   TiffStack stack;

@@ -189,7 +189,7 @@ class Voxelizer {
     const SolidTopology found = AsSolid(*result.topology);
     if (surface_.report.closure == SurfaceClosure::kOpen) {
       warnings_.push_back("the volume has " + InWords(found) +
-                          "; the topology of an open mesh is not known, so check them" +
+                          "; the topology of an open mesh is not known: check these numbers" +
                           (found.components > 1 ? " (--join-gaps X joins components)" : ""));
       return absl::OkStatus();
     }

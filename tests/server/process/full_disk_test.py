@@ -1,4 +1,4 @@
-"""A server whose disk is full: who asks for more is told so, and nothing that was confirmed is lost."""
+"""A server whose disk is full reports it to clients that need space and loses nothing that it confirmed."""
 
 import contextlib
 import os

@@ -21,7 +21,7 @@ TEST(DicomAbsent, TheOptionOfTheBuildIsNamed) {
   options.series = "3";
   folder.Write(".zarray", "{}");
   EXPECT_THAT(OpenImage(folder.path(), options).status().message(),
-              ::testing::HasSubstr("--series chooses in folders of DICOM only"));
+              ::testing::HasSubstr("--series applies only to folders of DICOM files"));
 }
 
 }  // namespace

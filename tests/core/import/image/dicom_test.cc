@@ -334,7 +334,7 @@ TEST(Dicom, OptionsOfOtherFormatsAreRefused) {
   WriteSeries(folder, 2);
   ImageOptions options;
   options.channel = 1;
-  EXPECT_THAT(ErrorOf(folder, options), HasSubstr("--channel chooses in segmentations"));
+  EXPECT_THAT(ErrorOf(folder, options), HasSubstr("--channel applies only to segmentations"));
   options = {};
   options.level = 1;
   EXPECT_THAT(ErrorOf(folder, options), HasSubstr("--level"));

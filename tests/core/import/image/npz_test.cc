@@ -96,7 +96,7 @@ TEST(Npz, ChoosesAnArrayByItsName) {
   ASSERT_TRUE(image.ok()) << image.status();
   EXPECT_EQ(image->values, CountedTo(12));
   EXPECT_THAT(ErrorOfBytes(NpySlices(1), ArrayNamed("mask")),
-              HasSubstr("--array chooses in .npz files only"));
+              HasSubstr("--array applies only to .npz files"));
 }
 
 TEST(Npz, RefusesWhatHoldsNoArray) {
