@@ -3,6 +3,7 @@
 #include <array>
 #include <utility>
 
+#include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
 #include "core/import/image/header_text.h"
 #include "core/import/image/image_headers.h"
@@ -36,6 +37,28 @@ absl::StatusOr<ImageFront> ReadMemberFront(std::shared_ptr<const ImageFile> file
   return Filled({std::move(file), Compression::kZip, "", member}, limits);
 }
 
+absl::StatusOr<std::shared_ptr<const ImageFile>> Expanded(std::shared_ptr<const ImageFile> file,
+                                                          Compression compression) {
+  if (compression == Compression::kNone) return file;
+  constexpr size_t kMaxBytes = size_t{1} << 30;
+  constexpr size_t kStep = size_t{1} << 20;
+  BCCSKEL_ASSIGN_OR_RETURN(auto stream, ByteStream::Open(file, 0, compression));
+  std::string bytes;
+  for (size_t filled = 0;; filled = bytes.size()) {
+    bytes.resize(filled + kStep);
+    const auto into = std::as_writable_bytes(std::span(bytes)).subspan(filled);
+    BCCSKEL_ASSIGN_OR_RETURN(const size_t got, stream->Read(into));
+    bytes.resize(filled + got);
+    if (got < kStep) return ImageFile::OfBytes(file->name(), std::move(bytes));
+    if (bytes.size() >= kMaxBytes) {
+      return absl::ResourceExhaustedError(
+          absl::StrFormat("a file of this format compressed by gzip as a whole may have %d bytes; "
+                          "expand it with gunzip first",
+                          kMaxBytes));
+    }
+  }
+}
+
 absl::Status PlaceBehindHeader(const ImageFront& front, uint64_t header_bytes, Compression inner,
                                StoredImage& image) {
   image.file = front.file;
@@ -45,7 +68,10 @@ absl::Status PlaceBehindHeader(const ImageFront& front, uint64_t header_bytes, C
     return absl::OkStatus();
   }
   if (inner != Compression::kNone) {
-    return absl::InvalidArgumentError("the voxels are compressed, and then the file again");
+    BCCSKEL_ASSIGN_OR_RETURN(image.file, Expanded(front.file, front.compression));
+    image.stream_offset = header_bytes;
+    image.compression = inner;
+    return absl::OkStatus();
   }
   image.compression = front.compression;
   image.stream_offset = front.member;

@@ -32,9 +32,14 @@ absl::StatusOr<ImageFront> ReadFront(std::shared_ptr<const ImageFile> file,
 absl::StatusOr<ImageFront> ReadMemberFront(std::shared_ptr<const ImageFile> file, uint64_t member,
                                            const ImageLimits& limits);
 
+// The file without its compression as a whole, in memory: for what is read anywhere in a file, and
+// for voxels that are compressed once more.
+// Errors: RESOURCE_EXHAUSTED above 1 GiB.
+absl::StatusOr<std::shared_ptr<const ImageFile>> Expanded(std::shared_ptr<const ImageFile> file,
+                                                          Compression compression);
+
 // Where the voxels begin, for a header that is followed by them. `inner` is the compression of
-// the voxels alone.
-// Errors: INVALID_ARGUMENT for voxels compressed twice.
+// the voxels alone. Errors: as Expanded().
 absl::Status PlaceBehindHeader(const ImageFront& front, uint64_t header_bytes, Compression inner,
                                StoredImage& image);
 

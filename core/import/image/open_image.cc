@@ -52,9 +52,10 @@ absl::StatusOr<StoredImage> ParseRaw(const ImageFront& front, const RawLayout& r
   image.byte_order = raw.byte_order;
   BCCSKEL_RETURN_IF_ERROR(PlaceBehindHeader(front, raw.header_bytes, Compression::kNone, image));
   const uint64_t bytes = raw.header_bytes + image.VoxelBytesDeclared();
-  if (front.compression != Compression::kNone || front.file->size() <= bytes) return image;
-  return absl::InvalidArgumentError(absl::StrFormat(
-      "%d bytes of header and voxels are declared, the file holds %d", bytes, front.file->size()));
+  if (front.compression != Compression::kNone || front.file->size() == bytes) return image;
+  return absl::InvalidArgumentError(
+      absl::StrFormat("--raw-size, --raw-type and --raw-header make %d bytes, the file holds %d",
+                      bytes, front.file->size()));
 }
 
 absl::StatusOr<StoredImage> ParseStored(const ImageFront& front, const ImageOptions& options) {
@@ -70,31 +71,8 @@ absl::StatusOr<StoredImage> ParseStored(const ImageFront& front, const ImageOpti
   }
   return absl::InvalidArgumentError(
       "format not supported: images are read from NIfTI, NRRD, TIFF, PNG, MetaImage, Inrimage, "
-      "npy, npz and vol; raw voxels need their size and type; save another image as NIfTI or "
+      "npy, npz and vol; raw voxels need --raw-size and --raw-type; save another image as NIfTI or "
       "NRRD, which keep its place, or as TIFF, PNG or .npy");
-}
-
-// What libraries read anywhere in a file is expanded as a whole.
-absl::StatusOr<std::shared_ptr<const ImageFile>> Expanded(std::shared_ptr<const ImageFile> file,
-                                                          Compression compression) {
-  if (compression == Compression::kNone) return file;
-  constexpr size_t kMaxBytes = size_t{1} << 30;
-  constexpr size_t kStep = size_t{1} << 20;
-  BCCSKEL_ASSIGN_OR_RETURN(auto stream, ByteStream::Open(file, 0, compression));
-  std::string bytes;
-  for (size_t filled = 0;; filled = bytes.size()) {
-    bytes.resize(filled + kStep);
-    const auto into = std::as_writable_bytes(std::span(bytes)).subspan(filled);
-    BCCSKEL_ASSIGN_OR_RETURN(const size_t got, stream->Read(into));
-    bytes.resize(filled + got);
-    if (got < kStep) return ImageFile::OfBytes(file->name(), std::move(bytes));
-    if (bytes.size() >= kMaxBytes) {
-      return absl::ResourceExhaustedError(
-          absl::StrFormat("a file of this format compressed by gzip as a whole may have %d bytes; "
-                          "expand it with gunzip first",
-                          kMaxBytes));
-    }
-  }
 }
 
 // What images of a format may have several of.

@@ -59,6 +59,16 @@ INSTANTIATE_TEST_SUITE_P(
                       Sample{"npy", kNpy + kVoxels}),
     [](const auto& info) { return std::string(info.param.name); });
 
+TEST(CompressedImage, IsReadFromAFileThatIsCompressedAgain) {
+  for (const std::string& bytes : {Nrrd("gzip") + Deflated(kVoxels, Wrapping::kGzip),
+                                   kMeta + Deflated(kVoxels, Wrapping::kZlib)}) {
+    const auto once = ReadBytes(bytes);
+    const auto twice = ReadBytes(Deflated(bytes, Wrapping::kGzip));
+    ASSERT_TRUE(twice.ok()) << twice.status();
+    EXPECT_EQ(twice->values, once->values);
+  }
+}
+
 TEST(CompressedImage, IsRefusedWhenItHoldsMoreThanDeclared) {
   const std::string bomb = Deflated(std::string(1 << 24, '\0'), Wrapping::kGzip);
   const auto image = ReadBytes(Nrrd("gzip") + bomb);

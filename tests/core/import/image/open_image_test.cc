@@ -307,6 +307,18 @@ TEST_P(EveryType, IsReadInBothByteOrders) {
   }
 }
 
+TEST(OpenImage, SaysWhichSizeOfRawVoxelsDoesNotFit) {
+  ImageOptions options;
+  options.raw = {.size = {3, 5, 2}};
+  for (const size_t voxels : {29, 31}) {
+    const auto image = ReadBytes(Counting<uint8_t>(voxels), options);
+    EXPECT_EQ(image.status().code(), absl::StatusCode::kInvalidArgument);
+    EXPECT_THAT(std::string(image.status().message()),
+                HasSubstr("--raw-size, --raw-type and --raw-header make 30 bytes, the file holds " +
+                          std::to_string(voxels)));
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Raw, EveryType,
     ::testing::Values(

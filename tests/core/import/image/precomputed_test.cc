@@ -198,7 +198,7 @@ TEST(Precomputed, RefusesWhatIsNotRead) {
   EXPECT_THAT(ErrorOf(folder, options), HasSubstr("level 1 is not there: the image has 1"));
   options = {};
   options.channel = 0;
-  EXPECT_THAT(ErrorOf(folder, options), HasSubstr("TIFF and OME-Zarr only"));
+  EXPECT_THAT(ErrorOf(folder, options), HasSubstr("apply only to TIFF and OME-Zarr"));
 }
 
 // Every cut and every changed byte of a chunk gives an error or other labels, no crash.
