@@ -33,7 +33,8 @@ absl::Status CheckAddress(const std::string& address, Encryption encryption) {
   // gRPC takes a host alone for its port 443, where servers with TLS are.
   const bool alone = address.find(':') == std::string::npos && encryption == Encryption::kTls;
   if (alone && bccskel::CheckAddress(address + ":443").ok()) return absl::OkStatus();
-  return bccskel::CheckAddress(address);
+  constexpr int kLeastPort = 1;
+  return bccskel::CheckAddress(address, kLeastPort);
 }
 
 absl::StatusOr<std::string> TokenToSend(std::string_view token) {
@@ -58,7 +59,8 @@ absl::Status CheckEndpoint(const Endpoint& endpoint) {
     return absl::InvalidArgumentError("a client's certificate and its key belong together");
   }
   if (!tls.certificate.empty() && tls.ca.empty()) {
-    return absl::InvalidArgumentError("a client's certificate needs a CA for the server's");
+    return absl::InvalidArgumentError(
+        "a client's certificate needs the authority that signed the server's");
   }
   const bool secret = endpoint.token.empty() || !tls.ca.empty() ||
                       endpoint.plaintext_token == Endpoint::PlaintextToken::kAllow ||

@@ -280,6 +280,9 @@ ExitCode RunShared(const SharedWork& work, const SkeletonizeArguments& arguments
 absl::StatusOr<Volume> LoadPart(const SkeletonizeArguments& arguments,
                                 const exec::Context& context);
 
+// Checks that the certificates and the token for a server can be read. Errors: as EndpointOf().
+absl::Status CheckServerFiles(const Arguments& arguments);
+
 // Checks that the command's output files can be written, before hours of work. Errors: as
 // CheckWritable(), for the first that cannot.
 absl::Status CheckOutputs(const Arguments& arguments);

@@ -84,7 +84,7 @@ CLI::Option* AddSeconds(CLI::App& command, const char* name, std::chrono::millis
       ->option_text("SECONDS");
 }
 
-CLI::Option* AddServer(CLI::App& command, ServerArguments& server) {
+void AddServer(CLI::App& command, ServerArguments& server) {
   command
       .add_option("--tls-ca", server.tls_ca,
                   "Use TLS and trust these certificate authorities, PEM (those of this machine: "
@@ -102,7 +102,7 @@ CLI::Option* AddServer(CLI::App& command, ServerArguments& server) {
       "--plaintext-token",
       [&server] { server.plaintext_token = client::Endpoint::PlaintextToken::kAllow; },
       "Allow sending the token over a network without TLS");
-  return command
+  command
       .add_option("--server", server.address,
                   "Address of the server (default " + server.address + ")")
       ->option_text("HOST:PORT|unix:PATH");
@@ -110,16 +110,15 @@ CLI::Option* AddServer(CLI::App& command, ServerArguments& server) {
 
 void AddPlace(CLI::App& command, ServerArguments& server, Place& place) {
   CLI::Option_group& group = *command.add_option_group("Server", "Compute on a server instead");
-  CLI::Option* address = AddServer(group, server);
+  AddServer(group, server);
   place = Place::kLocal;
   group.parse_complete_callback([&group, &place] {
     if (group.count_all() > 0) place = Place::kServer;
   });
-  command
-      .add_flag_callback(
-          "--local", [&place] { place = Place::kLocal; },
-          "Compute on this machine, without a server (default, unless a server is named)")
-      ->excludes(address);
+  CLI::Option* local = command.add_flag_callback(
+      "--local", [&place] { place = Place::kLocal; },
+      "Compute on this machine, without a server (default, unless a server is named)");
+  for (CLI::Option* option : group.get_options()) local->excludes(option);
 }
 
 void AddComputing(CLI::App& command, ComputeArguments& arguments) {

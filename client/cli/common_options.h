@@ -33,8 +33,8 @@ void AddProgress(CLI::App& command, ProgressStyle& progress);
 CLI::Option* AddSeconds(CLI::App& command, const char* name, std::chrono::milliseconds& time,
                         const char* description);
 
-// Adds --server and its companions; returns --server.
-CLI::Option* AddServer(CLI::App& command, ServerArguments& server);
+// Adds --server and its companions.
+void AddServer(CLI::App& command, ServerArguments& server);
 
 // --server and its companions, and --local: where to compute. kLocal unless a server is given.
 void AddPlace(CLI::App& command, ServerArguments& server, Place& place);

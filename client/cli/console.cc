@@ -85,9 +85,8 @@ std::string ReachHint(client::ConnectionFault fault, std::string_view local) {
                    std::string(local);
 }
 
-bool LacksToken(const ServerArguments& server, const absl::Status& error) {
-  return absl::IsUnauthenticated(error) && server.token_file.empty() &&
-         std::getenv("BCCSKEL_TOKEN_FILE") == nullptr;
+bool GivesToken(const ServerArguments& server) {
+  return !server.token_file.empty() || std::getenv("BCCSKEL_TOKEN_FILE") != nullptr;
 }
 
 // The error's message without a mention of jobs, which do not exist on this machine.
@@ -127,7 +126,10 @@ ExitCode FailWith(ExitCode code, const absl::Status& error) {
 ExitCode FailOnServer(const ServerArguments& server, const absl::Status& error,
                       std::string_view local) {
   PrintLine("error", "server " + server.address + ": " + std::string(error.message()));
-  if (LacksToken(server, error)) PrintLine("hint", "name the file of your token with --token-file");
+  if (absl::IsUnauthenticated(error)) {
+    PrintLine("hint", GivesToken(server) ? "check the token's file, or ask the server's operator"
+                                         : "name the file of your token with --token-file");
+  }
   if (absl::IsUnavailable(error)) PrintLine("hint", ReachHint(FaultOf(server, error), local));
   return CodeOf(error);
 }

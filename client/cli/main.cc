@@ -20,6 +20,8 @@ using bccskel::cli::ExitCode;
 
 // Libraries throw when memory runs out, the only exception that our code can meet.
 ExitCode RunCommand(const Arguments& arguments, const std::stop_token& stop) {
+  const absl::Status readable = bccskel::cli::CheckServerFiles(arguments);
+  if (!readable.ok()) return bccskel::cli::Fail(readable);
   const absl::Status writable = bccskel::cli::CheckOutputs(arguments);
   if (!writable.ok()) return bccskel::cli::FailWith(ExitCode::kOutput, writable);
   try {

@@ -15,6 +15,7 @@
 #include "absl/strings/str_join.h"
 #include "absl/strings/str_split.h"
 #include "client/cli/arguments.h"
+#include "client/cli/common_options.h"
 #include "client/cli/load_object.h"
 #include "client/cli/thinning_options.h"
 #include "client/endpoint.h"
@@ -115,11 +116,6 @@ absl::Status Validate(const SkeletonizeArguments& arguments) {
 }
 
 absl::Status Validate(const VoxelizeArguments& arguments) {
-  const absl::StatusOr<InputKind> kind = InputKindOf(arguments.input, arguments.image);
-  const bool sized = arguments.grid.points.has_value() || arguments.grid.spacing.has_value();
-  if (!sized && kind.ok() && *kind == InputKind::kMesh) {
-    return absl::InvalidArgumentError("voxelize needs --points or --spacing for a mesh");
-  }
   return CheckObject(arguments.input, arguments.grid, arguments.image);
 }
 
@@ -177,17 +173,33 @@ absl::Status Validate(const InfoArguments& arguments) {
   return CheckObject(arguments.file, {}, arguments.image);
 }
 
+// The server that the command calls; null: none.
 template <typename Chosen>
-absl::Status CheckServer(const Chosen& arguments) {
-  if constexpr (requires { arguments.server; }) {
-    const ServerArguments& server = arguments.server;
-    const absl::Status status =
-        client::CheckAddress(server.address, server.tls_ca.empty() ? client::Encryption::kNone
-                                                                   : client::Encryption::kTls);
-    if (!status.ok())
-      return absl::Status(status.code(), "--server: " + std::string(status.message()));
+const ServerArguments* ServerOf(const Chosen& arguments) {
+  if constexpr (requires { arguments.place; }) {
+    return arguments.place == Place::kServer ? &arguments.server : nullptr;
+  } else if constexpr (requires { arguments.server; }) {
+    return &arguments.server;
+  } else if constexpr (requires { arguments.job.server; }) {
+    return &arguments.job.server;
   }
-  return absl::OkStatus();
+  return nullptr;
+}
+
+absl::Status CheckServer(const ServerArguments* server) {
+  if (server == nullptr) return absl::OkStatus();
+  const bool authority = !server->tls_ca.empty(), shown = !server->tls_certificate.empty();
+  const absl::Status status = client::CheckAddress(
+      server->address, authority ? client::Encryption::kTls : client::Encryption::kNone);
+  if (!status.ok()) {
+    return absl::Status(status.code(), "--server: " + std::string(status.message()));
+  }
+  if (shown == server->tls_key.empty()) {
+    return absl::InvalidArgumentError("--tls-cert and --tls-key belong together");
+  }
+  if (!shown || authority) return absl::OkStatus();
+  return absl::InvalidArgumentError(
+      "--tls-cert and --tls-key need --tls-ca, the authority that signed the server's certificate");
 }
 
 template <typename Chosen>
@@ -296,7 +308,7 @@ absl::Status Validate(const Other&) requires(!std::derived_from<Other, ResultArg
 
 absl::Status Validate(const Arguments& arguments) {
   BCCSKEL_RETURN_IF_ERROR(
-      std::visit([](const auto& chosen) { return CheckServer(chosen); }, arguments));
+      std::visit([](const auto& chosen) { return CheckServer(ServerOf(chosen)); }, arguments));
   BCCSKEL_RETURN_IF_ERROR(
       std::visit([](const auto& chosen) { return CheckFileNames(chosen); }, arguments));
   BCCSKEL_RETURN_IF_ERROR(
@@ -324,6 +336,12 @@ std::vector<std::string> FirstOutputsOf(const Chosen& arguments) {
 }
 
 }  // namespace
+
+absl::Status CheckServerFiles(const Arguments& arguments) {
+  const ServerArguments* server =
+      std::visit([](const auto& chosen) { return ServerOf(chosen); }, arguments);
+  return server == nullptr ? absl::OkStatus() : EndpointOf(*server).status();
+}
 
 absl::Status CheckOutputs(const Arguments& arguments) {
   const std::vector<std::string> paths =

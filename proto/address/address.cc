@@ -11,12 +11,15 @@ namespace {
 
 constexpr char kDigits[] = "0123456789";
 
-bool IsPort(const std::string& text) {
+constexpr int kLastPort = 65535;
+
+bool IsPort(const std::string& text, int least) {
   const bool digits = text.find_first_not_of(kDigits) == std::string::npos;
-  return digits && !text.empty() && text.size() <= 5 && std::stoi(text) <= 65535;
+  if (!digits || text.empty() || text.size() > 5) return false;
+  return std::stoi(text) >= least && std::stoi(text) <= kLastPort;
 }
 
-bool IsAddress(const std::string& address) {
+bool IsAddress(const std::string& address, int least_port) {
   if (address.starts_with(kUnixPrefix)) {
     return address != kUnixPrefix && address.find('\0') == std::string::npos;
   }
@@ -24,16 +27,17 @@ bool IsAddress(const std::string& address) {
   const bool unclear = std::ranges::any_of(
       host, [](unsigned char c) { return absl::ascii_isspace(c) || absl::ascii_iscntrl(c); });
   return !host.empty() && !unclear && host.size() < address.size() &&
-         IsPort(address.substr(host.size() + 1)) && !address.starts_with("http://") &&
+         IsPort(address.substr(host.size() + 1), least_port) && !address.starts_with("http://") &&
          !address.starts_with("https://");
 }
 
 }  // namespace
 
-absl::Status CheckAddress(const std::string& address) {
-  if (IsAddress(address)) return absl::OkStatus();
-  return absl::InvalidArgumentError(absl::StrCat(
-      "'", address, "' is neither HOST:PORT, with a port of 0 to 65535, nor unix:PATH"));
+absl::Status CheckAddress(const std::string& address, int least_port) {
+  if (IsAddress(address, least_port)) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrCat("'", address,
+                                                 "' is neither HOST:PORT, with a port of ",
+                                                 least_port, " to ", kLastPort, ", nor unix:PATH"));
 }
 
 std::string SocketPathOf(const std::string& address) {

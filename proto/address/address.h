@@ -9,11 +9,11 @@ namespace bccskel {
 
 inline constexpr char kUnixPrefix[] = "unix:";
 
-// Errors: INVALID_ARGUMENT for anything but HOST:PORT, with port 0 to 65535, and unix:PATH.
-// Stricter
-//         than gRPC, which reads port 99999 as 34463 and a URL as the name of a host, and which
-//         drops control characters of a host, and everything after NUL.
-absl::Status CheckAddress(const std::string& address);
+// Port 0 lets the system choose one, for a server alone.
+// Errors: INVALID_ARGUMENT for anything but HOST:PORT, with a port up to 65535, and unix:PATH.
+//         Stricter than gRPC, which reads port 99999 as 34463 and a URL as the name of a host, and
+//         which drops control characters of a host, and everything after NUL.
+absl::Status CheckAddress(const std::string& address, int least_port = 0);
 
 // The path of unix:/path or unix:///path; empty if the address is not a Unix socket.
 std::string SocketPathOf(const std::string& address);

@@ -99,13 +99,13 @@ TEST(Endpoint, AnAddressIsAHostWithAPortOrAPath) {
     EXPECT_TRUE(CheckEndpoint(endpoint).ok()) << address;
   }
   for (const char* address : {"", ":", ":1", " :1", "unix:", "a", "localhost", "[::1]", "a:", "a:b",
-                              "a:65536", "a:4294967297", "http://a:1", "http://"}) {
+                              "a:0", "a:65536", "a:4294967297", "http://a:1", "http://"}) {
     Endpoint endpoint;
     endpoint.address = address;
     EXPECT_EQ(
         CheckEndpoint(endpoint),
         absl::InvalidArgumentError(absl::StrCat(
-            "'", address, "' is neither HOST:PORT, with a port of 0 to 65535, nor unix:PATH")));
+            "'", address, "' is neither HOST:PORT, with a port of 1 to 65535, nor unix:PATH")));
   }
 }
 

@@ -203,6 +203,11 @@ class ExitCodesTest(harness.TestCase):
         for text, message in (("", "ca.pem: is empty"), ("text", "authorities is not PEM")):
             self.fail_with(3, message, *words, self.write("ca.pem", text))
 
+    def test_3_for_a_tls_file_that_is_missing_without_blame_on_the_server(self):
+        done = self.fail_with(3, "cannot open", "probe", "--server", "localhost:1", "--tls-ca",
+                              self.path("nix.pem"))
+        self.assertNotIn("server localhost", done.stderr)
+
     def test_3_for_a_folder_in_place_of_a_token(self):
         self.fail_with(3, "is a folder", "probe", "--server", "localhost:1", "--token-file",
                        self.folder)

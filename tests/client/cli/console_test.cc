@@ -88,7 +88,7 @@ TEST(ConsoleTest, AServerThatWantsATokenLeadsToTheOption) {
   ServerArguments with_token = ServerAt("a:1");
   with_token.token_file = "wrong";
   FailOnServer(with_token, absl::UnauthenticatedError("not accepted"));
-  EXPECT_THAT(testing::internal::GetCapturedStderr(), testing::Not(HasSubstr("hint")));
+  EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("hint: check the token's file"));
 }
 
 TEST(JsonStringTest, EscapesQuotesAndControlCharactersAndKeepsUtf8) {
