@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <iterator>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -7,6 +9,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "absl/strings/str_join.h"
 #include "client/cli/image_options.h"
 #include "core/exec/read_ahead.h"
 #include "core/exec/status_macros.h"
@@ -86,8 +89,11 @@ std::vector<std::string> WarningsOf(const ImageInfo& info, const GrayLevels& lev
         "several labels are taken for one object; --label selects some, and the command labels "
         "takes each by itself");
   } else if (object == info.size.Voxels()) {
-    warnings.emplace_back(
-        "the object fills the whole image; --threshold or --below selects a part of it");
+    warnings.emplace_back(levels.HasOneValue()
+                              ? "the object fills the whole image, whose voxels seem to have one "
+                                "value: check the file"
+                              : "the object fills the whole image; --threshold or --below selects "
+                                "a part of it");
   }
   if (not_numbers > 0 && not_numbers < info.size.Voxels()) {
     warnings.push_back(NanWarning(not_numbers));
@@ -178,6 +184,42 @@ absl::StatusOr<CollectedLabels> CollectLabels(ImageSource& source, const ImageAr
     return object.voxels < min_voxels;
   });
   return labels;
+}
+
+namespace {
+
+// Errors: as NextSlice() and LabelSlice().
+absl::StatusOr<std::set<uint64_t>> LabelsIn(ImageSource& source) {
+  const ImageSize& size = source.info().size;
+  std::vector<uint64_t> values(static_cast<size_t>(size.nx) * static_cast<size_t>(size.ny));
+  std::set<uint64_t> labels;
+  for (int32_t z = 0; z < size.nz; ++z) {
+    BCCSKEL_ASSIGN_OR_RETURN(const ImageSlice slice, source.NextSlice());
+    BCCSKEL_RETURN_IF_ERROR(LabelSlice(slice, values));
+    uint64_t last = 0;
+    for (const uint64_t label : values) {
+      if (label != last) labels.insert(label);
+      last = label;
+    }
+  }
+  labels.erase(0);
+  return labels;
+}
+
+}  // namespace
+
+absl::Status NoSuchLabel(const std::vector<uint64_t>& labels, ImageSource& source) {
+  constexpr size_t kShown = 10;
+  const std::string none =
+      "no voxel has the label " + absl::StrJoin(std::set(labels.begin(), labels.end()), " or ");
+  const absl::StatusOr<std::set<uint64_t>> there = LabelsIn(source);
+  if (!there.ok()) return absl::InvalidArgumentError(none);
+  if (there->empty()) return absl::InvalidArgumentError(none + ", nor any other");
+  const auto end =
+      std::next(there->begin(), static_cast<ptrdiff_t>(std::min(kShown, there->size())));
+  return absl::InvalidArgumentError(absl::StrCat(
+      none, "; the image has ", there->size(), there->size() == 1 ? " label: " : " labels: ",
+      absl::StrJoin(there->begin(), end, ", "), there->size() > kShown ? ", ..." : ""));
 }
 
 }  // namespace bccskel::cli

@@ -104,6 +104,10 @@ struct CollectedLabels {
 absl::StatusOr<CollectedLabels> CollectLabels(ImageSource& source, const ImageArguments& arguments,
                                               uint64_t min_voxels, const exec::Context& context);
 
+// The error that no voxel has one of these labels, with those of the image: a source that has not
+// been read.
+absl::Status NoSuchLabel(const std::vector<uint64_t>& labels, ImageSource& source);
+
 }  // namespace bccskel::cli
 
 #endif  // BCCSKEL_CLIENT_CLI_IMAGE_OPTIONS_H_

@@ -5,9 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
-#include <iterator>
 #include <limits>
-#include <set>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -105,46 +103,12 @@ absl::Status CheckObjectFits(const view::ResultDocument& result, const Volume& o
   return CheckVolumes(result, object);
 }
 
-namespace {
-
-// The labels of an image. Errors: as OpenImage(), NextSlice() and LabelSlice().
-absl::StatusOr<std::set<uint64_t>> LabelsIn(const std::string& path,
-                                            const ImageArguments& arguments) {
-  BCCSKEL_ASSIGN_OR_RETURN(const auto source, OpenImage(path, arguments.open));
-  const ImageSize& size = source->info().size;
-  std::vector<uint64_t> values(static_cast<size_t>(size.nx) * static_cast<size_t>(size.ny));
-  std::set<uint64_t> labels;
-  for (int32_t z = 0; z < size.nz; ++z) {
-    BCCSKEL_ASSIGN_OR_RETURN(const ImageSlice slice, source->NextSlice());
-    BCCSKEL_RETURN_IF_ERROR(LabelSlice(slice, values));
-    uint64_t last = 0;
-    for (const uint64_t label : values) {
-      if (label != last) labels.insert(label);
-      last = label;
-    }
-  }
-  labels.erase(0);
-  return labels;
-}
-
-}  // namespace
-
 absl::Status NoSuchLabel(const std::string& path, const ImageArguments& arguments) {
-  constexpr size_t kShown = 10;
   if (arguments.labels.empty()) {
     return absl::InvalidArgumentError("no voxel has a label: all are 0, the background");
   }
-  const std::string none =
-      "no voxel has the label " +
-      absl::StrJoin(std::set(arguments.labels.begin(), arguments.labels.end()), " or ");
-  const absl::StatusOr<std::set<uint64_t>> there = LabelsIn(path, arguments);
-  if (!there.ok()) return absl::InvalidArgumentError(none);
-  if (there->empty()) return absl::InvalidArgumentError(none + ", nor any other");
-  const auto end =
-      std::next(there->begin(), static_cast<ptrdiff_t>(std::min(kShown, there->size())));
-  return absl::InvalidArgumentError(
-      none + "; the image has " + exporting::Counted(there->size(), "label: ", "labels: ") +
-      absl::StrJoin(there->begin(), end, ", ") + (there->size() > kShown ? ", ..." : ""));
+  BCCSKEL_ASSIGN_OR_RETURN(const auto source, OpenImage(path, arguments.open));
+  return NoSuchLabel(arguments.labels, *source);
 }
 
 namespace {
@@ -376,7 +340,10 @@ absl::StatusOr<ResultAndObject> LoadResultAndObject(const ResultArguments& argum
   const uint64_t points = object.PointCount();
   if (points != result.object_points) {
     Warn(arguments.object + ": has " + exporting::GroupedDigits(points) + " points, but " +
-         arguments.result + " was made from " + exporting::GroupedDigits(result.object_points));
+         arguments.result + " was made from " + exporting::GroupedDigits(result.object_points) +
+         (result.certificate.sampled && !arguments.image.mask.sampling.has_value()
+              ? " of a sampling: add --sampling and --density as they were"
+              : ""));
   }
   return ResultAndObject{std::string(FileName(arguments.object)), std::move(result),
                          std::move(object)};

@@ -2,12 +2,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cctype>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "absl/strings/ascii.h"
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
@@ -96,6 +97,9 @@ std::string InWords(const std::string& error) {
   if (words.size() == 8 && words[1] == "At" && words[4] == "required") {
     return absl::StrCat(words[0], " needs ", words[3], " numbers separated by commas, not ",
                         words[7]);
+  }
+  if (words.size() == 3 && words[1] == "excludes") {
+    return absl::StrCat(words[0], " and ", words[2], " exclude each other");
   }
   if (words.size() == 5 && words[2] == "required" && words[4] == "missing") {
     return words[0].substr(0, words[0].size() - 1) + " needs a value";
@@ -190,24 +194,68 @@ auto WithApp(OptionSet set, Use use) {
   return use(ObjectReader(set).app);
 }
 
+// Whether the option has this word among its values.
+bool IsChoice(const std::string& flag, const std::string& word) {
+  const auto takes = [&](const CLI::App& app) {
+    const CLI::Option* option = app.get_option_no_throw(flag);
+    if (option == nullptr) return false;
+    const std::vector<std::string> values = absl::StrSplit(option->get_option_text(), '|');
+    return std::ranges::count(values, word) > 0;
+  };
+  constexpr std::array kSets = {OptionSet::kMask, OptionSet::kMesh, OptionSet::kFile};
+  return std::ranges::any_of(kSets, [&](OptionSet set) { return WithApp(set, takes); });
+}
+
+// Numbers, placeholders such as X, and texts in quotes.
+bool IsPlainValue(const std::string& word) {
+  return word.find_first_not_of("0123456789.,e+-") == word.npos ||
+         std::ranges::all_of(word, absl::ascii_isupper) || word.front() == '\'';
+}
+
+// The value that follows the name of an option in a message; empty: other words do.
+std::string ValueBehind(const std::string& flag, std::string_view message) {
+  if (!message.starts_with(' ')) return "";
+  std::string word(message.substr(1, message.find(' ', 1) - 1));
+  while (!word.empty() && std::string_view(",.;:)").find(word.back()) != std::string_view::npos) {
+    word.pop_back();
+  }
+  return !word.empty() && (IsPlainValue(word) || IsChoice(flag, word)) ? word : "";
+}
+
+std::string Quoted(const std::string& value) {
+  if (!IsPlainValue(value)) return "\"" + value + "\"";
+  if (value.find(',') == value.npos) return value;
+  return "(" + absl::StrReplaceAll(value, {{",", ", "}}) + ")";
+}
+
 }  // namespace
 
 std::string WithOptionNames(std::string_view message) {
+  std::string functions(message);
+  absl::StrReplaceAll({{"bccskel skeletonize --", "skeletonize() with --"},
+                       {"skeletonize --", "skeletonize() with --"},
+                       {"the command labels", "skeletonize_labels()"}},
+                      &functions);
   std::string text;
-  bool in_name = false;
-  while (!message.empty()) {
+  for (std::string_view rest = functions; !rest.empty();) {
     const bool begins = text.empty() || text.back() == ' ' || text.back() == '(';
-    if (begins && message.starts_with("--")) {
-      in_name = true;
-      message.remove_prefix(2);
+    if (!begins || !rest.starts_with("--")) {
+      text += rest.front();
+      rest.remove_prefix(1);
       continue;
     }
-    const char c = message.front();
-    in_name = in_name && (std::islower(static_cast<unsigned char>(c)) != 0 || c == '-');
-    text += in_name && c == '-' ? '_' : c;
-    message.remove_prefix(1);
+    const auto end = std::ranges::find_if_not(rest, [](char c) {
+      return absl::ascii_islower(static_cast<unsigned char>(c)) || c == '-';
+    });
+    const std::string flag(rest.begin(), end);
+    rest.remove_prefix(flag.size());
+    text += Exchange(flag.substr(2), '-', '_');
+    const std::string value = ValueBehind(flag, rest);
+    if (value.empty()) continue;
+    text += "=" + Quoted(value);
+    rest.remove_prefix(value.size() + 1);
   }
-  return absl::StrReplaceAll(text, {{"the command labels", "skeletonize_labels()"}});
+  return text;
 }
 
 std::vector<std::string> OptionNames(OptionSet set) {

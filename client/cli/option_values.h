@@ -114,7 +114,7 @@ struct NamedOption {
 enum class OptionSet { kMask, kMesh, kLabels, kFile };
 
 // A message with the options named as here: "--fill-cavities helps" becomes "fill_cavities helps",
-// and "the command labels" becomes "skeletonize_labels()".
+// "--cut-loops 2" becomes "cut_loops=2", and "the command labels" becomes "skeletonize_labels()".
 std::string WithOptionNames(std::string_view message);
 
 // The names of the set's options, in the order of --help.

@@ -219,9 +219,23 @@ class ImagesTest(harness.TestCase):
                 summary = self.skeletonize(self.path(name + ".npy"), *rule)
                 self.assertEqual((summary["image"]["warnings"], summary["notes"]),
                                  ([warning], ["the object has no points"]))
-        warning, = self.skeletonize(self.path("full.npy"))["image"]["warnings"]
-        self.assertEqual(warning, "the object fills the whole image; --threshold or --below selects "
-                                  "a part of it")
+        for name, rule, advice in (
+                ("full", (), ", whose voxels seem to have one value: check the file"),
+                ("a", ("--threshold", 0), "; --threshold or --below selects a part of it")):
+            warning, = self.skeletonize(self.path(name + ".npy"), *rule)["image"]["warnings"]
+            self.assertEqual(warning, "the object fills the whole image" + advice)
+
+    def test_gzip_around_compressed_voxels_is_undone(self):
+        head = ("NRRD0004\ntype: uint8\ndimension: 3\nsizes: 9 8 7\nencoding: gzip\n\n").encode()
+        once = self.write("ring.nrrd", head + gzip.compress(ring().tobytes()))
+        twice = self.write("ring.nrrd.gz", gzip.compress((self.folder / "ring.nrrd").read_bytes()))
+        self.assertEqual(self.skeletonize(twice)["sha256"], self.skeletonize(once)["sha256"])
+
+    def test_raw_voxels_without_their_size_name_the_options(self):
+        raw = self.write("z.raw", ring().tobytes())
+        self.fail_with(3, "raw voxels need --raw-size and --raw-type", "info", raw)
+        self.fail_with(3, "--raw-size, --raw-type and --raw-header make 1000 bytes, the file holds 504",
+                       "info", raw, "--raw-size", "10,10,10")
 
     def test_one_voxel_is_in_the_singular(self):
         one = numpy.zeros((3, 3, 3), "u1")
@@ -260,6 +274,17 @@ class ImagesTest(harness.TestCase):
         self.assertIn("sampling changed components 11 -> ", done.stdout)
         summary = self.skeletonize(self.path("line.npy"), "--sampling", "nearest")
         self.assertTrue(summary["certificate"]["sampled"])
+
+    def test_the_object_of_a_sampling_asks_for_it(self):
+        numpy.save(self.path("a.npy"), ring())
+        sampling = ("--sampling", "nearest", "--density", 1)
+        harness.bccskel("skeletonize", self.path("a.npy"), "--local", *sampling, "-o",
+                        self.path("s.json"))
+        view = ("view", self.path("s.json"), "--object", self.path("a.npy"), "-o",
+                self.path("v.html"))
+        self.assertRegex(harness.bccskel(*view).stderr,
+                         "of a sampling: add --sampling and --density as they were\n")
+        self.assertNotIn("was made from", harness.bccskel(*view, *sampling).stderr)
 
     def test_voxels_have_as_many_points_as_asked_for(self):
         numpy.save(self.path("cube.npy"), numpy.ones((10, 10, 10), "u1"))
@@ -333,7 +358,7 @@ class ImagesTest(harness.TestCase):
                  ("are for images", "a.off", "--branch-image", "b.nrrd"),
                  ("does not end in .nrrd", "a.nii", "--curve-image", "b.tif"),
                  ("are for meshes", "a.nii", "--points", 9),
-                 ("excludes", "a.nii", "--label", 1, "--below", 0),
+                 ("--label and --below exclude each other", "a.nii", "--label", 1, "--below", 0),
                  ("holds no number", "a.nii", "--range", "3,2"),
                  ("requires --raw-size", "a.nii", "--raw-type", "u8"),
                  ("not a voxel type", "a.nii", "--raw-size", "1,1,1", "--raw-type", "u12")]

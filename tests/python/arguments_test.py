@@ -1,5 +1,6 @@
 """Wrong arguments are told in Python's way, and every option has a type."""
 
+import gzip
 import inspect
 import pathlib
 import warnings
@@ -121,7 +122,7 @@ class ArgumentsTest(harness.TestCase):
                     bccskel.skeletonize_labels, MASK, dust_threshold=3)
         refuse(ValueError, "pruning all: must be significance, length, relative-length, "
                "persistence or none", pruning="all")
-        refuse(ValueError, "pruning_threshold is for a rule of pruning, not for pruning none",
+        refuse(ValueError, 'pruning_threshold is for a rule of pruning, not for pruning="none"',
                pruning="none", pruning_threshold=1)
         self.refuse(ValueError, "border is for images and volumes, not for a mesh",
                     bccskel.skeletonize_mesh, *box_mesh(), border="continues", points=2000)
@@ -132,7 +133,11 @@ class ArgumentsTest(harness.TestCase):
         refuse(ValueError, "timeout must be a positive number of seconds, got '5'", timeout="5")
         refuse(TypeError, "progress must be a function of (done, total) or None, got bool",
                progress=True)
-        refuse(ValueError, "no voxel has the label 7", label=7)
+        refuse(ValueError, "no voxel has the label 7; the image has 1 label: 1", label=7)
+        refuse(ValueError, "label=0: 0 is the background, whose voxels only range=(0, 0) selects", label=0)
+        self.refuse(ValueError, "label=0: 0 is the background, whose voxels only skeletonize() with "
+                    "range=(0, 0) selects", bccskel.skeletonize_labels, MASK.astype("u1"), label=0)
+        refuse(ValueError, "label and threshold exclude each other", label=1, threshold=1)
         refuse(ValueError, "root must be 3 finite numbers, one per axis, got (1, 2)", root=(1, 2))
         refuse(ValueError, "root must be 3 finite numbers, one per axis, got 7", root=7)
         refuse(ValueError, "root must be 3 finite numbers, one per axis, got (nan, 0, 0)",
@@ -141,8 +146,8 @@ class ArgumentsTest(harness.TestCase):
                root=("a", 0, 0))
         refuse(ValueError, "pruning_threshold wide: must be a number",
                pruning_threshold="wide")
-        refuse(ValueError, "denoise 2.5: must be a whole number", denoise=2.5)
-        self.refuse(ValueError, "root node:N names a node of one skeleton; labels have many",
+        refuse(ValueError, "denoise=2.5: must be a whole number", denoise=2.5)
+        self.refuse(ValueError, 'root="node:N" names a node of one skeleton; labels have many',
                     bccskel.skeletonize_labels, MASK, root="node:1")
 
     def test_wrong_labels_are_named_with_their_place_in_the_array(self):
@@ -214,6 +219,11 @@ class ArgumentsTest(harness.TestCase):
                     bccskel.read, "/nowhere.npy")
         self.refuse(FileNotFoundError, "cannot open '/nowhere': No such file or directory",
                     bccskel.read, "/nowhere")
+        bomb = self.folder / "bomb.nrrd"
+        bomb.write_bytes(b"NRRD0004\ntype: uint8\ndimension: 3\nsizes: 3 2 2\nencoding: gzip\n\n" +
+                         gzip.compress(bytes(100)))
+        with self.assertRaisesRegex(ValueError, "bomb.nrrd': .* holds more"):
+            bccskel.read(bomb)
         with self.assertRaisesRegex(ValueError, r"read\(\) takes images"):
             bccskel.read(__file__)
         with self.assertRaisesRegex(ValueError, "there are .swc, "):

@@ -70,7 +70,7 @@ class FilesTest(harness.TestCase):
                                  self.bytes(f"theirs-{label}/a{label}{ending}"))
         bccskel.save_labels(self.path("none-{label}.swc"), {})
         self.assertEqual(list(self.folder.glob("*none*")), [])
-        with self.assertRaisesRegex(ValueError, "holds one label; write {label} where its number"):
+        with self.assertRaisesRegex(ValueError, "holds one label; write {label} where the label's number"):
             bccskel.save_labels(self.path("all.swc"), skeletons)
         for name, title in (("all.svg", "2 labels"), ("one-{label}.svg", "label 300")):
             bccskel.save_labels(self.path(name), skeletons)

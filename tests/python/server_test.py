@@ -1,7 +1,9 @@
 """The client has the functions of the package and gives the same results."""
 
+import os
 import pickle
 import subprocess
+import sys
 
 import bccskel
 import harness
@@ -116,6 +118,18 @@ class TlsTest(harness.TestCase):
                 (encrypted, None, "if it wants TLS, give tls= to Client$")):
             with self.assertRaisesRegex(ConnectionError, f"^server {address}: .*; {why}"):
                 bccskel.Client(address, tls=tls).skeletonize(numpy.ones((3, 3, 3)), timeout=20)
+
+    def test_errors_of_connections_are_all_that_is_told(self):
+        address = self.serve()
+        call = (f"import bccskel, numpy; bccskel.Client({address!r}, tls="
+                f"{str(self.theirs.pair.certificate)!r}).skeletonize(numpy.ones((3, 3, 3)))")
+        for verbosity, silent in (({}, True), ({"GRPC_VERBOSITY": "ERROR"}, False)):
+            environment = {name: value for name, value in os.environ.items()
+                           if name != "GRPC_VERBOSITY"}
+            done = subprocess.run([sys.executable, "-c", call], capture_output=True, text=True,
+                                  env={**environment, **verbosity})
+            self.assertIn("ConnectionError", done.stderr)
+            self.assertEqual("Handshake failed" not in done.stderr, silent, done.stderr)
 
     def test_a_client_shows_a_certificate_and_a_token(self):
         authority = self.ours.pair.certificate

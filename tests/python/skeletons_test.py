@@ -157,6 +157,9 @@ class SkeletonsTest(harness.TestCase):
     def test_its_representation_names_it(self):
         self.assertRegex(repr(self.skeleton),
                          r"<Skeleton of mask: 5 nodes, 4 edges, length [\d.]+, topology kept>")
+        sampled = bccskel.skeletonize(crossing_bars(), sampling="nearest")
+        self.assertRegex(repr(sampled), ", topology of the sampled object kept, sampling may have "
+                                        "changed the mask's>$")
 
 
 if __name__ == "__main__":

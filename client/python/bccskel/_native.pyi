@@ -39,6 +39,7 @@ class Volume:
 
 class Outcome:
     certificate: dict[str, Any]
+    verdict: str
     options: dict[str, Any]
     timings: dict[str, float]
     notes: list[str]

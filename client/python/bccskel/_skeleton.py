@@ -57,11 +57,10 @@ class Skeleton:
         """The label in the image; None for the skeleton of a mask or mesh."""
 
     def __repr__(self) -> str:
-        kept = "kept" if self.certificate["topology_kept"] else "changed"
         counts = [f"{len(rows)} {name if len(rows) == 1 else name + 's'}"
                   for rows, name in ((self.nodes, "node"), (self.edges, "edge"))]
         return (f"<Skeleton of {self.title}: {', '.join(counts)}, "
-                f"length {self.lengths.sum():.6g}, topology {kept}>")
+                f"length {self.lengths.sum():.6g}, {self._outcome.verdict}>")
 
     def __getstate__(self) -> dict:
         """For pickle and copy: everything except the arrays, which are made again on request."""

@@ -96,16 +96,18 @@ absl::StatusOr<std::shared_ptr<const Volume>> Outcome::Object() const {
   return std::make_shared<const Volume>(std::move(made.volume));
 }
 
-absl::StatusOr<Outcome> SkeletonizeMask(ImageSource& mask,
+absl::StatusOr<Outcome> SkeletonizeMask(const ArraySource& array,
                                         const cli::SkeletonizeArguments& arguments,
                                         const Run& run) {
   Here here(run);
   const MaskOptions& options = arguments.image.mask;
+  ArraySource mask = array;
   BCCSKEL_ASSIGN_OR_RETURN(
       cli::ImageObject image,
       cli::ConvertImage(mask, arguments.image, cli::KeptVoxels::kNone, here.context()));
   if (image.image.voxels == 0 && !arguments.image.labels.empty()) {
-    return NoVoxelOf(arguments.image.labels);
+    mask = array;
+    return cli::NoSuchLabel(arguments.image.labels, mask);
   }
   const MaskGrid grid = cli::GridOf(mask.info());
   BCCSKEL_ASSIGN_OR_RETURN(Outcome outcome, OutcomeOf(std::move(image.volume),
@@ -142,17 +144,19 @@ absl::StatusOr<Outcome> SkeletonizeVolume(const Volume& object,
   return OutcomeOf(object, arguments.skeletonize, arguments.root, run, here.context());
 }
 
-absl::StatusOr<LabelOutcomes> SkeletonizeImage(ImageSource& image,
+absl::StatusOr<LabelOutcomes> SkeletonizeImage(const ArraySource& array,
                                                const cli::LabelsArguments& arguments,
                                                const Run& run) {
   Here here(run);
   const MaskOptions options = arguments.image.mask;
+  ArraySource image = array;
   BCCSKEL_ASSIGN_OR_RETURN(
       cli::CollectedLabels collected,
       cli::CollectLabels(image, arguments.image, arguments.min_voxels, here.context()));
   const auto labels = std::make_shared<const LabeledObjects>(std::move(collected.objects));
   if (labels->objects.empty() && collected.left_out == 0 && !arguments.image.labels.empty()) {
-    return NoVoxelOf(arguments.image.labels);
+    image = array;
+    return cli::NoSuchLabel(arguments.image.labels, image);
   }
   LabelOutcomes outcomes;
   const auto take = [&](LabelSkeleton&& skeleton) {

@@ -14,9 +14,9 @@
 #include "absl/status/statusor.h"
 #include "client/cli/arguments.h"
 #include "client/encoded_labels.h"
+#include "client/python/native/array_source.h"
 #include "client/skeletonize_client.h"
 #include "client/view/result_document.h"
-#include "core/import/image/image_source.h"
 #include "core/import/mesh/triangle_mesh.h"
 #include "core/labels/voxel_runs.h"
 #include "core/mask/mask_converter.h"
@@ -67,7 +67,7 @@ struct Run {
 // Errors: as ConvertImage(), Skeletonize() and CheckRootChoice(); INVALID_ARGUMENT if no voxel has
 //         a requested label; INTERNAL if an exact conversion changed the topology, which would be a
 //         defect.
-absl::StatusOr<Outcome> SkeletonizeMask(ImageSource& mask,
+absl::StatusOr<Outcome> SkeletonizeMask(const ArraySource& array,
                                         const cli::SkeletonizeArguments& arguments, const Run& run);
 
 // Errors: as Voxelize(), Skeletonize() and CheckRootChoice().
@@ -82,7 +82,7 @@ absl::StatusOr<Outcome> SkeletonizeVolume(const Volume& object,
 using LabelOutcomes = std::map<uint64_t, std::shared_ptr<Outcome>>;
 
 // Errors: as CollectLabels() and SkeletonizeLabels().
-absl::StatusOr<LabelOutcomes> SkeletonizeImage(ImageSource& image,
+absl::StatusOr<LabelOutcomes> SkeletonizeImage(const ArraySource& image,
                                                const cli::LabelsArguments& arguments,
                                                const Run& run);
 

@@ -1,9 +1,11 @@
+#include <grpc/support/log.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
 #include <array>
 #include <chrono>
+#include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <optional>
@@ -11,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "absl/strings/str_cat.h"
 #include "absl/synchronization/mutex.h"
 #include "client/cli/option_values.h"
 #include "client/python/native/array_source.h"
@@ -87,7 +90,7 @@ auto RunCall(const Call& call, const Compute& compute) {
 std::shared_ptr<Outcome> Mask(const py::array& array, const Placement& placement,
                               const Options& options, const Call& call) {
   const auto arguments = Value(cli::ReadNamedOptions(cli::OptionSet::kMask, Named(options)));
-  ArraySource source = Value(ArraySource::Create(ViewOf(array), placement));
+  const ArraySource source = Value(ArraySource::Create(ViewOf(array), placement));
   return std::make_shared<Outcome>(
       RunCall(call, [&](const Run& run) { return SkeletonizeMask(source, arguments, run); }));
 }
@@ -149,7 +152,7 @@ py::array_t<int32_t> PointsOf(const Volume& volume) {
 LabelOutcomes Labels(const py::array& array, const Placement& placement, const Options& options,
                      const Call& call) {
   const auto arguments = Value(cli::ReadLabelsOptions(Named(options)));
-  ArraySource source = Value(ArraySource::Create(ViewOf(array), placement));
+  const ArraySource source = Value(ArraySource::Create(ViewOf(array), placement));
   if (call.server == nullptr) {
     return RunCall(call, [&](const Run& run) { return SkeletonizeImage(source, arguments, run); });
   }
@@ -203,7 +206,8 @@ py::tuple ReadImage(const std::string& path, const Options& options) {
   RunJob(py::none(), [&](Job& job) {
     exec::Context context;
     context.stop = job.stop();
-    return ReadInto(*source, to, context);
+    const absl::Status read = ReadInto(*source, to, context);
+    return absl::Status(read.code(), absl::StrCat("image '", path, "': ", read.message()));
   });
   return py::make_tuple(array, info.placement, info.unit, info.world);
 }
@@ -307,12 +311,21 @@ void AddFunctions(py::module_& module) {
              });
 }
 
+// gRPC logs each attempt to connect; our message says how the last one ended. Leaves a user's
+// GRPC_VERBOSITY and the environment, which others read, as they are.
+void SilenceGrpc() {
+  constexpr int kNone = GPR_LOG_SEVERITY_ERROR + 1;
+  if (std::getenv("GRPC_VERBOSITY") != nullptr) return;
+  gpr_set_log_verbosity(static_cast<gpr_log_severity>(kNone));
+}
+
 }  // namespace
 }  // namespace bccskel::python
 
 PYBIND11_MODULE(_native, module) {
   // Debian's build of Abseil looks for deadlocks at every lock.
   absl::SetMutexDeadlockDetectionMode(absl::OnDeadlockCycle::kIgnore);
+  bccskel::python::SilenceGrpc();
   module.attr("__version__") = std::string(bccskel::Version());
   bccskel::python::AddSkeletonClass(module);
   bccskel::python::AddValues(module);

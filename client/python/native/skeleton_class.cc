@@ -29,6 +29,7 @@
 #include "client/python/native/job.h"
 #include "client/python/native/outcome_state.h"
 #include "client/view/render/subject_picture.h"
+#include "core/certificate/describe_changes.h"
 #include "core/exec/status_macros.h"
 #include "core/pipeline/notes.h"
 #include "core/pipeline/option_words.h"
@@ -381,6 +382,8 @@ void AddSkeletonClass(py::module_& module) {
            py::arg("swc_step"))
       .def_property_readonly("certificate",
                              [](const Outcome& o) { return CertificateDict(o.result.certificate); })
+      .def_property_readonly("verdict",
+                             [](const Outcome& o) { return VerdictInWords(o.result.certificate); })
       .def_property_readonly("options", &OptionsDict)
       .def_property_readonly("timings",
                              [](const Outcome& o) { return TimingsDict(o.result.timings); })

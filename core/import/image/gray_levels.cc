@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <numeric>
 #include <span>
@@ -90,6 +91,11 @@ std::optional<double> GrayLevels::Threshold() const {
   values.insert(values.end(), zeros_, 0);
   std::ranges::sort(values);
   return OtsuThreshold(values);
+}
+
+bool GrayLevels::HasOneValue() const {
+  return !values_.empty() &&
+         std::ranges::adjacent_find(values_, std::not_equal_to()) == values_.end();
 }
 
 bool GrayLevels::HasSeveralLabels() const {
