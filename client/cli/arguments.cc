@@ -7,8 +7,6 @@
 #include <initializer_list>
 #include <list>
 #include <map>
-#include <numeric>
-#include <optional>
 #include <span>
 #include <sstream>
 #include <string>
@@ -18,13 +16,11 @@
 #include <vector>
 
 #include "absl/strings/ascii.h"
-#include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "absl/strings/str_split.h"
+#include "client/cli/complaints.h"
 #include "client/cli/console.h"
-#include "client/cli/option_values.h"
-#include "client/export/skeleton_file.h"
 #include "core/version/version.h"
 
 namespace bccskel::cli {
@@ -35,141 +31,6 @@ constexpr const char* kFooter =
     "unavailable, 5 deadline passed or job cancelled by the server, 6 internal error or topology\n"
     "not kept, 7 over a limit, 8 output cannot be written, 9 token missing, wrong or without\n"
     "permission, 130 interrupted (Ctrl-C), 143 terminated. See bccskel(1).";
-
-// Empty: none, because errors of values state the choice.
-std::string HintFor(std::string_view error, const CLI::App& command) {
-  if (error == "--object is required") {
-    return "--object names the mesh, volume or image that the result was made from; `bccskel view` "
-           "and `bccskel render` show a result without it";
-  }
-  const auto says = [error](std::string_view what) { return error.find(what) != error.npos; };
-  if (!says(" is required") && !says(" has no option ") && !says("there is no command ")) return "";
-  std::string words = " --help";
-  for (const CLI::App* at = &command; at->get_parent() != nullptr; at = at->get_parent()) {
-    words = absl::StrCat(" ", at->get_name(), words);
-  }
-  return "see " + std::string(ProgramName()) + words;
-}
-
-// The number of letters to change, add or remove to turn one word into the other.
-size_t EditDistance(std::string_view one, std::string_view other) {
-  std::vector<size_t> row(other.size() + 1);
-  std::iota(row.begin(), row.end(), size_t{0});
-  for (size_t i = 0; i < one.size(); ++i) {
-    size_t diagonal = std::exchange(row[0], i + 1);
-    for (size_t j = 0; j < other.size(); ++j) {
-      const size_t changed = diagonal + (one[i] == other[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({changed, diagonal + 1, row[j] + 1});
-    }
-  }
-  return row.back();
-}
-
-// "; did you mean ...?" if a known word is similar.
-std::string Suggestion(const std::string& word, const std::vector<std::string>& known) {
-  const auto distance = [&](const std::string& name) { return EditDistance(word, name); };
-  const auto nearest = std::ranges::min_element(known, {}, distance);
-  if (nearest == known.end() || 3 * distance(*nearest) > word.size()) return "";
-  return "; did you mean " + *nearest + "?";
-}
-
-void AddOptionNames(const CLI::App& command, std::vector<std::string>& names) {
-  for (const CLI::Option* option : command.get_options()) {
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-  }
-  for (const CLI::App* group : command.get_subcommands([](const CLI::App*) { return true; })) {
-    if (group->get_name().empty()) AddOptionNames(*group, names);
-  }
-}
-
-// The subcommands of a command, as of `bench`.
-std::vector<std::string> CommandsOf(const CLI::App& command) {
-  std::vector<std::string> names;
-  for (const CLI::App* inner : command.get_subcommands([](const CLI::App*) { return true; })) {
-    if (!inner->get_name().empty()) names.push_back(inner->get_name());
-  }
-  return names;
-}
-
-std::string CommandRequired(const CLI::App& app) {
-  return "a command is required: " + absl::StrJoin(CommandsOf(app), ", ");
-}
-
-// The innermost one, as `core` of `bench core`.
-const CLI::App& GivenCommand(const CLI::App& app) {
-  const CLI::App* command = &app;
-  while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
-  return *command;
-}
-
-// The error for an unknown command or option, or for a missing subcommand; empty: neither. CLI11
-// would report a missing argument instead.
-std::string UnknownWord(const CLI::App& app, const CLI::App& command) {
-  const std::vector<std::string> rest = app.remaining(true);
-  std::vector<std::string> known = CommandsOf(command);
-  if (!known.empty() && !rest.empty() && !rest.front().starts_with("-")) {
-    const std::string before = &command == &app ? "" : command.get_name() + " ";
-    return "there is no command " + before + rest.front() + Suggestion(rest.front(), known);
-  }
-  if (&command != &app && !known.empty() && rest.empty()) return CommandRequired(command);
-  known.clear();
-  const auto found = std::ranges::find_if(rest, [](const std::string& word) {
-    return word.starts_with("-") && word != "-" && word != "--";
-  });
-  if (found == rest.end()) return "";
-  AddOptionNames(command, known);
-  const std::string option = found->substr(0, found->find('='));
-  if (std::ranges::count(known, option) > 0) {
-    return option + " stands before its command; write bccskel " + command.get_name() + " " +
-           option;
-  }
-  return command.get_name() + " has no option " + option + Suggestion(option, known);
-}
-
-struct Complaint {
-  std::string what;
-  std::string hint;
-};
-
-// About more files than the command takes; nullopt: it has not been given more.
-std::optional<Complaint> TooManyFiles(const std::vector<std::string>& rest,
-                                      const CLI::App& command) {
-  const auto files = command.get_options([](const CLI::Option* o) { return o->get_positional(); });
-  if (rest.empty() || files.empty()) return std::nullopt;
-  const std::string name = files.front()->get_name(true);
-  const std::string what = command.get_name() + " takes one " + name + "; " +
-                           absl::StrJoin(rest, ", ") + (rest.size() == 1 ? " is" : " are") +
-                           " too much";
-  if (rest.size() == 1 && command.get_option_no_throw("--object") != nullptr) {
-    return Complaint{what, "--object " + rest.front() +
-                               " names the mesh, volume or image that the result was made from"};
-  }
-  double number = 0;
-  if (std::ranges::all_of(rest,
-                          [&](const auto& word) { return absl::SimpleAtod(word, &number); })) {
-    return Complaint{what,
-                     "separate the numbers of an option by commas, such as --voxel-size 1,1,2.5"};
-  }
-  const bool writes = command.get_option_no_throw("--output") != nullptr;
-  return Complaint{
-      what, "run it once for each " + name + (writes ? ", and write -o before each output" : "")};
-}
-
-Complaint DescribeError(const CLI::App& app, const CLI::Error& error) {
-  const CLI::App& command = GivenCommand(app);
-  const std::vector<std::string> rest = app.remaining(true);
-  std::string what = UnknownWord(app, command);
-  if (what.empty() && dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
-    if (const auto complaint = TooManyFiles(rest, command)) return *complaint;
-  }
-  if (what.empty()) what = InWords(error.what());
-  if (what == "--output is required" && rest.size() == 1 &&
-      exporting::SkeletonFormatOf(rest.front()).ok()) {
-    return {what, "write -o before " + rest.front()};
-  }
-  return {what, HintFor(what, command)};
-}
 
 // They run as printed, where the files they name are there.
 std::string ExamplesOf(const std::string& command, std::span<const char* const> examples) {

@@ -7,6 +7,7 @@
 #include "client/cli/common_options.h"
 #include "client/cli/console.h"
 #include "client/cli/option_values.h"
+#include "client/cli/progress_bar.h"
 #include "client/cli/summaries.h"
 #include "client/export/text.h"
 #include "core/io/volume_file.h"
@@ -41,6 +42,7 @@ void AddGenerate(CLI::App& command, GenerateArguments& arguments) {
       .add_option("--noise", arguments.options.noise,
                   "Fraction of boundary points that change sides, 0 to 0.1 (default 0)")
       ->option_text("X");
+  AddProgress(command, arguments.common.progress);
   AddJson(command, arguments.common);
 }
 
@@ -62,10 +64,13 @@ std::string SummaryOf(const GenerateArguments& arguments, const Volume& volume) 
 }  // namespace
 
 ExitCode Run(const GenerateArguments& arguments, const std::stop_token& stop) {
+  const ProgressBar bar(arguments.common.progress);
+  bar.Begin("making the shape");
   const absl::StatusOr<Volume> volume = GenerateShape(arguments.shape, arguments.options);
   if (!volume.ok()) return FailWith(ExitCode::kUsage, volume.status());
   exec::Context context;
   context.stop = stop;
+  bar.Begin("writing", arguments.output);
   const absl::Status written = WriteVolumeFile(arguments.output, *volume, context);
   if (!written.ok()) return FailWith(ExitCode::kOutput, written);
   return Print(SummaryOf(arguments, *volume));

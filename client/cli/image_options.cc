@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "absl/strings/ascii.h"
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_split.h"
 #include "client/cli/option_values.h"
@@ -46,8 +47,8 @@ namespace {
 
 constexpr const char* kGroup = "Images";
 
-// "7" or "3-9".
-void ReadLabels(const std::string& given, std::vector<uint64_t>& labels) {
+// "7" or "3-9". `range` is the option that takes other values.
+void ReadLabels(const std::string& given, const std::string& range, std::vector<uint64_t>& labels) {
   constexpr uint64_t kMostOfRange = 1'000'000;
   const auto refuse = [&](const std::string& why) {
     throw CLI::ValidationError("--label " + given + ": " + why);
@@ -57,23 +58,25 @@ void ReadLabels(const std::string& given, std::vector<uint64_t>& labels) {
   const auto last = dash == given.npos ? first : ParseCount(given.substr(dash + 1));
   if (!first.has_value() || !last.has_value()) {
     refuse(std::string("must be a whole number from 1 on or a range, such as 3,7 or 1-85") +
-           (given.starts_with('-') ? "; skeletonize takes negative values with --range" : ""));
+           (given.starts_with('-') ? "; " + range + " takes negative values" : ""));
   }
   uint64_t low = *first;
   const uint64_t high = *last;
   if (low > high) refuse("the first label is above the last");
-  if (high == 0) refuse("0 is the background; skeletonize selects its voxels with --range 0,0");
+  if (high == 0) refuse("0 is the background, whose voxels only " + range + " 0,0 selects");
   low = std::max<uint64_t>(low, 1);
   if (high - low >= kMostOfRange) {
-    refuse("is more than " + std::to_string(kMostOfRange) + " labels; skeletonize has --range");
+    refuse("is more than " + std::to_string(kMostOfRange) + " labels; " + range + " takes more");
   }
   for (uint64_t label = low; label < high; ++label) labels.push_back(label);
   labels.push_back(high);
 }
 
 CLI::Option* AddLabelList(CLI::App& command, ImageArguments& arguments, const char* description) {
-  const auto read = [&arguments](const std::vector<std::string>& given) {
-    for (const std::string& labels : given) ReadLabels(labels, arguments.labels);
+  const auto read = [&command, &arguments](const std::vector<std::string>& given) {
+    const bool here = command.get_option_no_throw("--range") != nullptr;
+    const std::string range = here ? "--range" : "skeletonize --range";
+    for (const std::string& labels : given) ReadLabels(labels, range, arguments.labels);
   };
   return command
       .add_option_function<std::vector<std::string>>("--label,--labels", read, description)
@@ -200,7 +203,8 @@ std::array<double, 3> VoxelSizeOf(const std::string& given) {
   // coordinates.
   constexpr double kLeast = 1e-15, kMost = 1e15;
   const std::vector<std::string> words = absl::StrSplit(given, ',');
-  if (words.size() != 1 && words.size() != 3) {
+  const bool spaces = absl::StripAsciiWhitespace(words.front()).find(' ') != std::string::npos;
+  if (spaces || (words.size() != 1 && words.size() != 3)) {
     throw CLI::ValidationError("--voxel-size " + given +
                                ": must be one number, or three separated by commas");
   }

@@ -13,6 +13,7 @@
 #include "client/cli/job_calls.h"
 #include "client/cli/load_object.h"
 #include "client/cli/option_values.h"
+#include "client/cli/progress_bar.h"
 #include "client/cli/summaries.h"
 #include "client/cli/thinning_options.h"
 #include "client/export/skeleton_file.h"
@@ -102,6 +103,8 @@ absl::StatusOr<SkeletonizeResult> Fetch(const FetchArguments& arguments,
 // The object to show; empty if none is given.
 absl::StatusOr<Volume> ObjectOf(const FetchArguments& arguments, const exec::Context& context) {
   if (arguments.object.empty()) return Volume();
+  const ProgressBar bar(arguments.waiting.progress);
+  bar.Begin("reading", arguments.object);
   return ReadVolumeFile(arguments.object, {}, context);
 }
 
@@ -179,7 +182,9 @@ ExitCode Run(const FetchArguments& arguments, const std::stop_token& stop) {
                                       .swc = arguments.swc,
                                       .draw = view::DrawSubject};
   std::vector<WrittenFile> files;
+  const ProgressBar bar(arguments.waiting.progress);
   for (const std::string& path : arguments.outputs) {
+    bar.Begin("writing", path);
     absl::StatusOr<std::string> note = exporting::WriteSkeletonFile(path, subject);
     if (!note.ok()) return FailWith(ExitCode::kOutput, note.status());
     files.push_back({path, *std::move(note)});

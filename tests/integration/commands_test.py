@@ -183,12 +183,19 @@ class CommandsTest(harness.TestCase):
                 (("convert", result, "-o", self.path("b.csv")), ["reading a.json", "writing b.csv"]),
                 (("info", volume), [reading]),
                 (("voxelize", self.tetrahedron("a.off"), "--points", "1000", "-o",
-                  self.path("b.exr")), ["reading a.off"])):
+                  self.path("b.exr")), ["reading a.off"]),
+                (("generate", "torus", "--points", "5000", "-o", self.path("c.exr")),
+                 ["making the shape", "writing c.exr"])):
             with self.subTest(words[0]):
                 done = harness.bccskel(*words, "--progress", "always")
                 self.assertEqual(done.returncode, 0, done.stderr)
                 lines = done.stderr.splitlines()
                 self.assertEqual([line for line in phases if line not in lines], [], lines)
+
+    def test_a_mesh_becomes_850000_points_unless_another_size_is_given(self):
+        summary = json.loads(self.succeed("voxelize", self.tetrahedron("a.off"), "--json", "-o",
+                                          self.path("a.exr")))
+        self.assertAlmostEqual(summary["volume"]["points"], 850_000, delta=10_000)
 
     def test_a_terminal_gets_a_bar_that_ends_in_a_clean_line(self):
         volume = self.generate("tree")

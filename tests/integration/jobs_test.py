@@ -42,6 +42,9 @@ class JobsTest(harness.TestCase):
             self.assertEqual(
                 json.loads(self.succeed(*fetch, "--json")),
                 {"job": job, "outputs": [{"path": self.path("f.json"), "note": ""}]})
+            shown = harness.bccskel(*fetch, "--object", self.path("object.bccb"),
+                                    "--progress", "always").stderr.splitlines()
+            self.assertEqual((shown[0], shown[-1]), ("reading object.bccb", "writing f.json"))
             self.succeed("skeletonize", self.path("object.bccb"), "--local", "--json",
                          "-o", self.path("l.json"))
             self.assertEqual(self.read_json("f.json")["sha256"], self.read_json("l.json")["sha256"])

@@ -246,12 +246,13 @@ TEST(ArgumentsTest, ErrorsNameTheHelpThatHelps) {
   EXPECT_EQ(Parse("bench core --thread 2").err,
             "bccskel: error: core has no option --thread; did you mean --threads?\n"
             "bccskel: hint: see bccskel bench core --help\n");
-  EXPECT_EQ(Parse("view").err,
-            "bccskel: error: RESULT is required\nbccskel: hint: see bccskel view --help\n");
+  EXPECT_EQ(
+      Parse("view").err,
+      "bccskel: error: RESULT and --output are required\nbccskel: hint: see bccskel view --help\n");
   EXPECT_EQ(Parse("dance").err,
             "bccskel: error: there is no command dance\nbccskel: hint: see bccskel --help\n");
   EXPECT_EQ(Parse("info a.nrrd --label 1 --threshold 3").err,
-            "bccskel: error: --label excludes --threshold\n");
+            "bccskel: error: --label and --threshold exclude each other\n");
 }
 
 TEST(ArgumentsTest, DefaultsSuitAUserOfThisMachine) {

@@ -71,8 +71,18 @@ const Wrong kWrong[] = {
     {"unknown_ending", "skeletonize a.off -o a.docx", ".graphml"},
     {"points_and_spacing", "skeletonize a.off -o a.swc --points 9 --spacing 1", "--points"},
     {"local_and_server", "skeletonize a.off -o a.swc --local --server x:1", "--server"},
+    {"local_and_a_token", "skeletonize a.off -o a.swc --local --token-file f",
+     "--local and --token-file exclude each other"},
     {"server_without_a_host", "skeletonize a.off -o a.swc --server http://",
-     "--server: 'http://' is neither HOST:PORT, with a port of 0 to 65535, nor unix:PATH"},
+     "--server: 'http://' is neither HOST:PORT, with a port of 1 to 65535, nor unix:PATH"},
+    {"server_with_port_0", "probe --server a:0",
+     "--server: 'a:0' is neither HOST:PORT, with a port of 1 to 65535, nor unix:PATH"},
+    {"job_of_a_server_without_a_port", "watch jobs/1 --server a",
+     "--server: 'a' is neither HOST:PORT"},
+    {"certificate_without_its_key", "probe --server a:1 --tls-ca c.pem --tls-cert c.pem",
+     "--tls-cert and --tls-key belong together"},
+    {"certificate_without_an_authority", "probe --server a:1 --tls-cert c.pem --tls-key k.pem",
+     "--tls-cert and --tls-key need --tls-ca, the authority that signed the server's certificate"},
     {"server_without_a_port", "probe --server a", "--server: 'a' is neither HOST:PORT"},
     {"channel_of_an_image_that_has_none", "skeletonize a.nii.gz -o a.swc --channel 0",
      "--channel and --time apply only to TIFF and OME-Zarr"},
@@ -125,7 +135,6 @@ const Wrong kWrong[] = {
     {"too_many_threads", "skeletonize a.off -o a.swc --threads 1025", "1025"},
     {"no_time", "skeletonize a.off -o a.swc --timeout 0", "--timeout"},
     {"grid_of_a_volume", "skeletonize a.exr -o a.swc --points 9", "is a volume"},
-    {"voxelize_without_size", "voxelize a.off -o a.exr", "--spacing"},
     {"voxelize_to_a_skeleton", "voxelize a.off -o a.swc --points 9", ".bccb"},
     {"too_many_passes", "skeletonize a.off -o a.swc --denoise 17", "16"},
     {"prepared_voxels", "skeletonize a.tif -o a.swc --keep-largest --curve-image b.nrrd",
@@ -162,18 +171,21 @@ const Wrong kWrong[] = {
     {"standard_input_as_an_object", "view a.json --object - -o a.html",
      "-: standard input is not read"},
     {"object_without_its_option", "view a.json b.off -o a.html",
-     "view takes one RESULT; b.off is too much\nbccskel: hint: --object b.off names the mesh, "
+     "unexpected argument: b.off; view takes one RESULT\nbccskel: hint: --object b.off names the "
+     "mesh, "
      "volume or image that the result was made from\n"},
     {"object_without_its_option_in_a_picture", "render -o a.png a.json b.off",
-     "render takes one RESULT; b.off is too much\nbccskel: hint: --object b.off names"},
+     "unexpected argument: b.off; render takes one RESULT\nbccskel: hint: --object b.off names"},
     {"second_input", "skeletonize a.off b.off -o a.swc",
-     "skeletonize takes one INPUT; b.off is too much\nbccskel: hint: run it once for each INPUT, "
+     "unexpected argument: b.off; skeletonize takes one INPUT\nbccskel: hint: run it once for each "
+     "INPUT, "
      "and write -o before each output\n"},
     {"output_without_its_option", "convert a.json -o a.swc b.csv c.vtp",
-     "convert takes one RESULT; b.csv, c.vtp are too much\nbccskel: hint: run it once for each "
+     "unexpected arguments: b.csv, c.vtp; convert takes one RESULT\nbccskel: hint: run it once for "
+     "each "
      "RESULT, and write -o before each output\n"},
     {"second_file", "info a.off b.off",
-     "info takes one FILE; b.off is too much\nbccskel: hint: run it once for each FILE\n"},
+     "unexpected argument: b.off; info takes one FILE\nbccskel: hint: run it once for each FILE\n"},
     {"no_spacing", "voxelize a.off -o a.exr --spacing 0",
      "--spacing: must be finite and positive, not 0"},
     {"endless_spacing", "voxelize a.off -o a.exr --spacing inf",
@@ -183,12 +195,12 @@ const Wrong kWrong[] = {
     {"no_nested_command", "bench", "a command is required: core, server\n"},
     {"unknown_nested_command", "bench cores", "there is no command bench cores"},
     {"negative_label", "skeletonize a.tif -o a.swc --label 4,-5",
-     "--label -5: must be a whole number from 1 on or a range, such as 3,7 or 1-85; skeletonize "
-     "takes negative values with --range"},
-    {"background_alone", "skeletonize a.tif -o a.swc --label 0",
-     "0 is the background; skeletonize selects its voxels with --range 0,0"},
+     "--label -5: must be a whole number from 1 on or a range, such as 3,7 or 1-85; --range "
+     "takes negative values"},
+    {"background_alone", "info a.tif --label 0",
+     "0 is the background, whose voxels only --range 0,0 selects"},
     {"background_to_itself", "labels a.tif -o a.vtp --label 0-0",
-     "0 is the background; skeletonize selects its voxels with --range 0,0"},
+     "0 is the background, whose voxels only skeletonize --range 0,0 selects"},
     {"labels_backwards", "labels a.tif -o a.vtp --label 9-3",
      "--label 9-3: the first label is above the last"},
     {"too_many_labels", "skeletonize a.tif -o a.swc --label 1-5000000000",
@@ -219,8 +231,13 @@ const Wrong kWrong[] = {
     {"voxels_of_two_sizes", "skeletonize a.tif -o a.swc --voxel-size 1,2",
      "--voxel-size 1,2: must be one number, or three separated by commas"},
     {"voxels_of_three_words", "skeletonize a.tif -o a.swc --voxel-size 1 1 2.5",
-     "skeletonize takes one INPUT; 1, 2.5 are too much\nbccskel: hint: separate the numbers of an "
+     "unexpected arguments: 1, 2.5; skeletonize takes one INPUT\nbccskel: hint: separate the "
+     "numbers of an "
      "option by commas, such as --voxel-size 1,1,2.5\n"},
+    {"voxels_of_three_words_before_the_file", "info --voxel-size 1 1 2.5 a.tif",
+     "hint: separate the numbers of an option by commas, such as --voxel-size 1,1,2.5\n"},
+    {"voxels_of_two_words_of_an_object", "view a.json --object a.tif -o a.html --voxel-size 1 2",
+     "hint: separate the numbers of an option by commas"},
     {"voxels_of_no_number", "skeletonize a.tif -o a.swc --voxel-size small",
      "--voxel-size: must be 1e-15 to 1e+15, not small"},
     {"voxels_smaller_than_anything", "skeletonize a.tif -o a.swc --voxel-size 1e-300",
@@ -260,12 +277,24 @@ const Wrong kWrong[] = {
      "-: standard output is not written; name a file, whose ending chooses the format"},
     {"standard_output_of_labels", "labels a.tif -o -", "-: standard output is not written"},
     {"balls_without_object", "reconstruct a.json -o a.exr", "hint: --object names the mesh"},
+    {"neither_object_nor_output", "reconstruct a.json",
+     "--object and --output are required\nbccskel: hint: --object names the mesh"},
+    {"range_of_labels", "labels a.tif -o a.vtp --range 1,2",
+     "labels has no option --range\nbccskel: hint: labels takes each value for an object, or those "
+     "of --label; skeletonize takes the voxels of a range or threshold for one object\n"},
+    {"threshold_of_labels", "labels a.tif -o a.vtp --threshold=5", "hint: labels takes each value"},
     {"unknown_bench", "bench core --shape sofa", "--shape sofa: must be ball"},
     {"unknown_shape", "generate teapot -o a.exr", "hollow-ball"},
 };
 
 INSTANTIATE_TEST_SUITE_P(Every, WrongCommandLineTest, testing::ValuesIn(kWrong),
                          [](const auto& test) { return test.param.name; });
+
+TEST(WrongCommandLine, NamesTheCommasThatNumbersInOneWordLack) {
+  const Parsed parsed = Parse({"info", "a.tif", "--voxel-size", "1 1 2.5"});
+  EXPECT_THAT(parsed.err, HasSubstr("--voxel-size 1 1 2.5: must be one number, or three separated "
+                                    "by commas"));
+}
 
 }  // namespace
 }  // namespace bccskel::cli
