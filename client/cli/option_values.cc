@@ -254,6 +254,7 @@ std::string WithOptionNames(std::string_view message) {
     if (value.empty()) continue;
     text += "=" + Quoted(value);
     rest.remove_prefix(value.size() + 1);
+    if (rest.starts_with(" --")) text += ',';
   }
   return text;
 }

@@ -50,7 +50,7 @@ class ServerTest(harness.TestCase):
         self.assertEqual(sorted(self.client.skeletonize_labels(image, labels=[300])), [300])
         with self.assertWarnsRegex(UserWarning, "^no label has 1000000 voxels or more$"):
             self.assertEqual(self.client.skeletonize_labels(image, min_voxels=10 ** 6), {})
-        with self.assertRaisesRegex(ValueError, "^no voxel has the label 7$"):
+        with self.assertRaisesRegex(ValueError, "^no voxel has the label 7; the image has 2 labels: 4, 300$"):
             self.client.skeletonize_labels(image, labels=7)
         for value in (-1.0, 0.5, 1e20, numpy.inf):
             wrong = image.astype("f8")

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "absl/strings/str_join.h"
+#include "absl/strings/str_cat.h"
 #include "client/cli/console.h"
 #include "client/cli/image_options.h"
 #include "client/cli/load_object.h"
@@ -77,10 +77,6 @@ absl::Status Certify(const cli::ImageStage& image, const MaskOptions& options, O
   if (!options.sampling.has_value()) return absl::InternalError(message);
   outcome.warnings.push_back(message);
   return absl::OkStatus();
-}
-
-absl::Status NoVoxelOf(const std::vector<uint64_t>& labels) {
-  return absl::InvalidArgumentError("no voxel has the label " + absl::StrJoin(labels, " or "));
 }
 
 }  // namespace
@@ -176,7 +172,8 @@ absl::StatusOr<LabelOutcomes> SkeletonizeImage(const ArraySource& array,
   return outcomes;
 }
 
-absl::StatusOr<LabelOutcomes> SkeletonizeOnServer(const client::LabelVolume& image,
+absl::StatusOr<LabelOutcomes> SkeletonizeOnServer(const ArraySource& array,
+                                                  const client::LabelVolume& image,
                                                   const cli::LabelsArguments& arguments,
                                                   const Run& run) {
   if (arguments.image.mask.sampling.has_value()) {
@@ -205,7 +202,8 @@ absl::StatusOr<LabelOutcomes> SkeletonizeOnServer(const client::LabelVolume& ima
   BCCSKEL_ASSIGN_OR_RETURN(const client::LabelsReport report,
                            run.server->SkeletonizeLabels(image, call, take));
   if (outcomes.empty() && report.skipped == 0 && !call.labels.empty()) {
-    return NoVoxelOf(call.labels);
+    ArraySource source = array;
+    return cli::NoSuchLabel(call.labels, source);
   }
   return outcomes;
 }

@@ -88,7 +88,8 @@ absl::StatusOr<LabelOutcomes> SkeletonizeImage(const ArraySource& image,
 
 // Needs: run.server.
 // Errors: those of SkeletonizeClient::SkeletonizeLabels(); UNIMPLEMENTED for samplings.
-absl::StatusOr<LabelOutcomes> SkeletonizeOnServer(const client::LabelVolume& image,
+absl::StatusOr<LabelOutcomes> SkeletonizeOnServer(const ArraySource& array,
+                                                  const client::LabelVolume& image,
                                                   const cli::LabelsArguments& arguments,
                                                   const Run& run);
 

@@ -161,7 +161,8 @@ LabelOutcomes Labels(const py::array& array, const Placement& placement, const O
       .grid = {size.nx, size.ny, size.nz, placement},
       .label_bytes = static_cast<int>(array.itemsize()),
       .voxels = {static_cast<const std::byte*>(array.data()), static_cast<size_t>(array.nbytes())}};
-  return RunCall(call, [&](const Run& run) { return SkeletonizeOnServer(image, arguments, run); });
+  return RunCall(
+      call, [&](const Run& run) { return SkeletonizeOnServer(source, image, arguments, run); });
 }
 
 // Otsu's, if the values look like gray levels.

@@ -53,7 +53,7 @@ absl::StatusOr<ZarrAxes> AxesOf(const std::vector<char>& names, const ZarrArray&
   if ((options.channel.value_or(0) != 0 && none_of('c')) ||
       (options.time.value_or(0) != 0 && none_of('t'))) {
     return absl::InvalidArgumentError(
-        "--channel and --time choose along axes c and t; the image has no such axis");
+        "--channel and --time apply to the axes c and t, and the image has no such axis");
   }
   if (axes.space[0].has_value() && axes.space[1].has_value()) return axes;
   return absl::InvalidArgumentError("the image has no axes y and x");
