@@ -112,13 +112,17 @@ void AddPlace(CLI::App& command, ServerArguments& server, Place& place) {
   CLI::Option_group& group = *command.add_option_group("Server", "Compute on a server instead");
   AddServer(group, server);
   place = Place::kLocal;
-  group.parse_complete_callback([&group, &place] {
-    if (group.count_all() > 0) place = Place::kServer;
+  const std::string description =
+      "Compute on this machine, without a server (default, unless a server is named)";
+  const CLI::Option* local = command.add_flag("--local", description);
+  group.parse_complete_callback([&group, &place, local] {
+    for (const CLI::Option* option : group.get_options()) {
+      if (option->count() == 0) continue;
+      place = Place::kServer;
+      if (local->count() == 0) continue;
+      throw CLI::ValidationError("--local and " + option->get_name() + " exclude each other");
+    }
   });
-  CLI::Option* local = command.add_flag_callback(
-      "--local", [&place] { place = Place::kLocal; },
-      "Compute on this machine, without a server (default, unless a server is named)");
-  for (CLI::Option* option : group.get_options()) local->excludes(option);
 }
 
 void AddComputing(CLI::App& command, ComputeArguments& arguments) {
