@@ -1,7 +1,5 @@
 #include "client/export/picture/caption.h"
 
-#include "core/certificate/describe_changes.h"
-
 namespace bccskel::exporting {
 
 std::string GroupedDigits(uint64_t number) {
@@ -32,8 +30,12 @@ std::string ObjectPhrase(const view::ResultDocument& result) {
 }
 
 std::string SkeletonPhrase(const view::ResultFacts& result, const std::string& size) {
-  return "skeleton: " + size + ", " + BettiPhrase(result.certificate.skeleton) + " (" +
-         VerdictInWords(result.certificate) + ")";
+  return "skeleton: " + size + ", " + BettiPhrase(result.certificate.skeleton);
+}
+
+std::string UnitBehind(const view::ResultFacts& result) {
+  if (result.unit.empty() || result.unit == "unknown") return "";
+  return result.unit == "um" ? " \u00b5m" : " " + result.unit;
 }
 
 }  // namespace bccskel::exporting

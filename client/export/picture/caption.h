@@ -19,10 +19,13 @@ std::string Counted(uint64_t count, std::string_view one, std::string_view many)
 // "1 component, 3 loops, 0 cavities".
 std::string BettiPhrase(const BettiNumbers& betti);
 
-// The two lines under a picture's title: the input, and the result with its certificate.
-// `size`: of the skeleton, such as "12 points".
+// The words under a picture's title: the input, and the result, whose certificate
+// VerdictInWords() describes. `size`: of the skeleton, such as "12 points".
 std::string ObjectPhrase(const view::ResultDocument& result);
 std::string SkeletonPhrase(const view::ResultFacts& result, const std::string& size);
+
+// " mm", to follow a length; "" if the unit is unknown.
+std::string UnitBehind(const view::ResultFacts& result);
 
 }  // namespace bccskel::exporting
 

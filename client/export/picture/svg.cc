@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "client/export/picture/projection.h"
 #include "client/export/text.h"
 #include "client/view/display_surface.h"
+#include "core/certificate/describe_changes.h"
 #include "core/exec/status_macros.h"
 
 namespace bccskel::exporting {
@@ -252,11 +254,11 @@ void AddLegendText(Text& svg, double x, std::string_view anchor, std::string_vie
           "</text>\n");
 }
 
-void AddRadiusLegend(Text& svg, const RadiusRange& radii) {
+void AddRadiusLegend(Text& svg, const RadiusRange& radii, const std::string& unit) {
   constexpr double kBar = 150, kStep = 9;
   Text low, high;
   low.Add("radius ", Legible(radii.low));
-  high.Add(Legible(radii.high));
+  high.Add(Legible(radii.high), EscapeMarkup(unit));
   AddLegendText(svg, kBar - 8, "end", std::move(low).Take());
   for (int n = 0; n < kRadiusColors; ++n) {
     svg.Add("<rect x=\"", kBar + kStep * n, "\" y=\"822\" width=\"", kStep + 0.5,
@@ -275,7 +277,7 @@ void AddLegend(Text& svg, const Scene& scene) {
   if (scene.result.labels.has_value()) {
     AddLegendText(svg, 20, "start", "each label in its own color");
   } else {
-    AddRadiusLegend(svg, scene.strings.colors().range());
+    AddRadiusLegend(svg, scene.strings.colors().range(), UnitBehind(scene.result));
   }
   AddNodeLegend(svg, 520, "end", "end");
   AddNodeLegend(svg, 588, "junction", "junction");
@@ -295,9 +297,16 @@ void AddHead(Text& svg, const SvgContent& content) {
           ".a{stroke:#94a3b8;stroke-width:1.3}",
           ".a text{font-size:12px;fill:#64748b;stroke:none;text-anchor:middle}</style>\n",
           "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n");
-  svg.Add("<text class=\"t\" x=\"20\" y=\"36\">", EscapeMarkup(content.title), "</text>\n",
-          "<text class=\"s\" x=\"20\" y=\"64\">", ObjectPhrase(result), "  →  ",
-          SkeletonPhrase(result, size), "</text>\n");
+  const std::string verdict = VerdictInWords(result.certificate);
+  constexpr size_t kShort = 20;  // fits behind the other words
+  svg.Add("<text class=\"t\" x=\"20\" y=\"34\">", EscapeMarkup(content.title), "</text>\n",
+          "<text class=\"s\" x=\"20\" y=\"57\">", ObjectPhrase(result), "  →  ",
+          SkeletonPhrase(result, size));
+  if (verdict.size() <= kShort) {
+    svg.Add(" (", verdict, ")</text>\n");
+  } else {
+    svg.Add("</text>\n<text class=\"s\" x=\"20\" y=\"76\">", EscapeMarkup(verdict), "</text>\n");
+  }
 }
 
 }  // namespace

@@ -7,10 +7,14 @@
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
+#include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "absl/strings/str_split.h"
 #include "client/export/picture/beads.h"
 #include "client/export/picture/caption.h"
 #include "client/export/picture/glass_image.h"
@@ -128,9 +132,12 @@ class Words {
     const std::string both = object + "; " + skeleton;
     if (WidthOf(both, 1, CAIRO_FONT_WEIGHT_NORMAL) <= Room()) {
       WriteFitting(both, 4.4 * size_, 1, kSoft, CAIRO_FONT_WEIGHT_NORMAL);
-    } else {
-      WriteFitting(object, 4.1 * size_, 1, kSoft, CAIRO_FONT_WEIGHT_NORMAL);
-      WriteFitting(skeleton, 5.5 * size_, 1, kSoft, CAIRO_FONT_WEIGHT_NORMAL);
+      return;
+    }
+    double y = 4.1;
+    for (const std::string& line : LinesOf(object + "\n" + skeleton)) {
+      WriteFitting(line, y * size_, 1, kSoft, CAIRO_FONT_WEIGHT_NORMAL);
+      y += 1.4;
     }
   }
 
@@ -139,7 +146,7 @@ class Words {
     const double base = height_ - 1.8 * size_;
     double x = result.labels.has_value()
                    ? Label("each label in its own color", kMargin * size_, base)
-                   : RadiusLegend(exporting::RadiusRangeOf(result), base);
+                   : RadiusLegend(exporting::RadiusRangeOf(result), result, base);
     const auto has = [&](std::string_view kind) {
       return std::ranges::any_of(result.nodes, [&](const auto& node) { return node.kind == kind; });
     };
@@ -154,7 +161,8 @@ class Words {
   static constexpr LinearColor kSoft = {0.28f, 0.33f, 0.41f};
 
   // Returns the x coordinate of its end.
-  double RadiusLegend(const exporting::RadiusRange& radii, double base) {
+  double RadiusLegend(const exporting::RadiusRange& radii, const ResultDocument& result,
+                      double base) {
     const double x = Label("radius " + Figure(radii.low), kMargin * size_, base);
     cairo_set_antialias(pen_, CAIRO_ANTIALIAS_NONE);  // no seams
     for (int n = 0; n < exporting::kRadiusColors; ++n) {
@@ -164,7 +172,8 @@ class Words {
       cairo_fill(pen_);
     }
     cairo_set_antialias(pen_, CAIRO_ANTIALIAS_DEFAULT);
-    return Label(Figure(radii.high), x + (0.45 * exporting::kRadiusColors + 0.7) * size_, base);
+    return Label(Figure(radii.high) + exporting::UnitBehind(result),
+                 x + (0.45 * exporting::kRadiusColors + 0.7) * size_, base);
   }
 
   double Room() const { return width_ - 2 * kMargin * size_; }
@@ -175,6 +184,24 @@ class Words {
     cairo_text_extents_t extents;
     cairo_text_extents(pen_, words.c_str(), &extents);
     return extents.x_advance;
+  }
+
+  // The lines of a text, each broken before the word with which it would be too wide.
+  std::vector<std::string> LinesOf(const std::string& text) {
+    std::vector<std::string> lines;
+    for (const std::string& given : std::vector<std::string>(absl::StrSplit(text, '\n'))) {
+      std::string line;
+      for (const std::string& word : std::vector<std::string>(absl::StrSplit(given, ' '))) {
+        std::string longer = absl::StrCat(line, line.empty() ? "" : " ", word);
+        if (!line.empty() && WidthOf(longer, 1, CAIRO_FONT_WEIGHT_NORMAL) > Room()) {
+          lines.push_back(std::move(line));
+          longer = word;
+        }
+        line = std::move(longer);
+      }
+      lines.push_back(std::move(line));
+    }
+    return lines;
   }
 
   // A line of text from the left margin, in a smaller font if it would not fit.

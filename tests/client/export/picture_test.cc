@@ -97,6 +97,18 @@ TEST(PictureTest, EveryKindOfSkeletonHasOneThatNamesItsTopologyAndNeedsNoNetwork
   }
 }
 
+TEST(PictureTest, StatesChangesBeforeThinningOnALineOfTheirOwnAndTheUnit) {
+  const Sample sample = SampleOf(Shape::kTree);
+  view::ResultDocument document = DocumentOf(sample);
+  document.certificate.unprepared = {1, 7, 0};
+  document.unit = "um";
+  const std::string svg = *SvgText({sample.result, sample.object, "title"}, document);
+  EXPECT_THAT(svg, HasSubstr("y=\"76\">topology of the prepared object kept, preparing changed "
+                             "loops 7 -&gt; 0</text>"));
+  EXPECT_THAT(svg, HasSubstr(" \u00b5m</text>"));
+  EXPECT_EQ(UnitBehind(DocumentOf(sample)), "");
+}
+
 // Rows of branches, each along x.
 view::ResultDocument Comb(size_t branches, size_t points) {
   view::ResultDocument document = DocumentOf(SampleOf(Shape::kTree));
