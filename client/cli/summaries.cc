@@ -88,7 +88,11 @@ std::string MeshText(const MeshReport& report, std::optional<uint64_t> crossings
   Text text;
   text.Add("vertices:    ", GroupedDigits(report.vertices), '\n');
   text.Add("triangles:   ", GroupedDigits(report.triangles), " (",
-           GroupedDigits(report.dropped_triangles), " degenerate ones dropped)\n");
+           GroupedDigits(report.dropped_triangles), " degenerate ones dropped",
+           report.two_sided_triangles == 0
+               ? ""
+               : "; " + GroupedDigits(report.two_sided_triangles) + " there from both sides",
+           ")\n");
   text.Add("surface:     ");
   AddClosure(text, report);
   text.Add(report.consistently_oriented() ? ", consistently oriented" : ", orientation mixed",

@@ -141,6 +141,13 @@ class CommandsTest(harness.TestCase):
         self.assertEqual(mesh["mesh"]["genus"], 0)
         self.assertTrue(mesh["mesh"]["watertight"])
         self.assertEqual(mesh["mesh"]["crossings"], 0)
+        lines = open(self.path("a.off")).read().split("\n")
+        double = [line for line in lines if line.startswith("3 ")]
+        turned = [" ".join(["3", *line.split()[:0:-1]]) for line in double]
+        text = "\n".join(line for line in lines if line and line not in double)
+        self.write("b.off", text.replace(f" {len(double)} ", f" {2 * len(double)} ") + "\n" +
+                   "\n".join(double + turned) + "\n")
+        self.assertIn(f"{len(double)} there from both sides", self.succeed("info", self.path("b.off")))
         volume = json.loads(self.succeed("info", self.generate("hollow-ball"), "--json"))
         self.assertEqual(volume["volume"]["topology"],
                          {"components": 1, "loops": 0, "cavities": 1})

@@ -194,7 +194,8 @@ class Voxelizer {
       return absl::OkStatus();
     }
     const std::optional<SolidTopology> mesh = ExpectedTopology(surface_.report, result.fill);
-    if (!mesh || *mesh == found) return absl::OkStatus();
+    if (!mesh) return WarnOfUnknownTopology(found);
+    if (*mesh == found) return absl::OkStatus();
     BCCSKEL_RETURN_IF_ERROR(Repair(*mesh, result));
     if (*mesh == AsSolid(*result.topology)) return absl::OkStatus();
     BCCSKEL_ASSIGN_OR_RETURN(const CrossingCount crossings, CountCrossings(surface_, context_));
@@ -208,15 +209,29 @@ class Voxelizer {
     return absl::OkStatus();
   }
 
+  // Of a closed mesh with edges in more than two triangles.
+  absl::Status WarnOfUnknownTopology(const SolidTopology& found) {
+    BCCSKEL_ASSIGN_OR_RETURN(const CrossingCount crossings, CountCrossings(surface_, context_));
+    if (crossings.total() == 0) return absl::OkStatus();
+    warnings_.push_back(CrossingsInWords(crossings.total()) +
+                        ", so the topology of the mesh is not known; the volume has " +
+                        InWords(found) + ": check these numbers");
+    return absl::OkStatus();
+  }
+
+  static std::string CrossingsInWords(uint64_t crossings) {
+    return Counted(static_cast<int64_t>(crossings), "pair of triangles crosses",
+                   "pairs of triangles cross");
+  }
+
   std::string CauseInWords(uint64_t crossings, const Volume& volume) const {
     if (crossings == 0) {
       return "walls or gaps are thinner than a cell, which more points or a smaller spacing "
-             "resolve, or parts touch, which only a change of the mesh resolves" +
+             "resolve, or parts touch or coincide, which only a change of the mesh resolves" +
              WallsInWords(volume);
     }
-    return Counted(static_cast<int64_t>(crossings), "pair of triangles crosses",
-                   "pairs of triangles cross") +
-           "; repair the mesh, or try --denoise 1, which removes thin spots and small holes";
+    return CrossingsInWords(crossings) +
+           "; repair the mesh; --denoise 1, which removes thin spots and small holes, may help";
   }
 
   // Where it is near a cell or below, what would resolve the mean thickness of walls, which is
@@ -235,6 +250,8 @@ class Voxelizer {
     if (!(thickness > 0 && thickness < 2 * cell)) return "";
     const double spacing = thickness / 2;
     const double points = 2 * surface_.unit_volume / (spacing * spacing * spacing);
+    // Where parts that turn against each other cancel out, the mean says nothing.
+    if (points > static_cast<double>(options_.max_points)) return "";
     return absl::StrFormat(
         "; walls are about %.2g thick and cells %.2g wide, so try --spacing %.2g, which takes "
         "about %.2g points",

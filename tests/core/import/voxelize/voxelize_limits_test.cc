@@ -2,8 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "core/import/mesh/mesh_file.h"
@@ -17,11 +20,13 @@ namespace {
 using test::Voxelized;
 using ::testing::AllOf;
 using testing::Box;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using testing::Merged;
 using testing::Moved;
+using ::testing::Not;
 using testing::Sphere;
 
 absl::Status Refusal(const TriangleMesh& mesh, const VoxelizeOptions& options) {
@@ -59,6 +64,47 @@ TEST(VoxelizePoints, AreMetWhereSignedVolumesCancel) {
     EXPECT_NEAR(static_cast<double>(result.volume.PointCount()) / static_cast<double>(wanted), 1,
                 0.02);
   }
+}
+
+// Walls of parts that cancel out are not thin: no spacing would resolve them.
+TEST(VoxelizeWarnings, AdviseNoSpacingWhereSignedVolumesCancel) {
+  const std::array<std::array<double, 2>, 6> outline = {
+      {{0, 0}, {1, 1}, {2, 2}, {2, 0}, {1, 1}, {0, 2}}};
+  TriangleMesh mesh;
+  for (const double z : {0, 1}) {
+    for (const auto& [x, y] : outline) mesh.vertices.push_back({x, y, z});
+  }
+  for (uint32_t n = 0; n < 6; ++n) {
+    const uint32_t next = (n + 1) % 6;
+    mesh.triangles.push_back({n, next, next + 6});
+    mesh.triangles.push_back({n, next + 6, n + 6});
+  }
+  for (const uint32_t z : {0u, 6u}) {
+    mesh.triangles.push_back({z + 1, z + 2, z + 3});
+    mesh.triangles.push_back({z + 1, z + 3, z + 4});
+    mesh.triangles.push_back({z, z + 1, z + 5});
+    mesh.triangles.push_back({z + 1, z + 4, z + 5});
+  }
+  for (const std::string& warning : Voxelized(mesh, {.points = 20000}).warnings) {
+    EXPECT_THAT(warning, Not(HasSubstr("--spacing")));
+  }
+}
+
+// Two tetrahedra with a common edge, one of which a third one crosses.
+TEST(VoxelizeWarnings, TellThatTheTopologyIsNotKnownWhereANonManifoldMeshCrossesItself) {
+  TriangleMesh mesh;
+  mesh.vertices = {{0, 0, 0},   {0, 0, 3},  {3, 0, 0},   {2, 2, 1},     {-3, 0, 0},
+                   {-2, -2, 1}, {1, -1, 1}, {1, 3, 0.6}, {1.6, 3, 0.7}, {1.2, 3, 1.5}};
+  const auto add = [&](uint32_t a, uint32_t b, uint32_t c, uint32_t d) {
+    mesh.triangles.insert(mesh.triangles.end(), {{a, b, c}, {a, c, d}, {a, d, b}, {b, d, c}});
+  };
+  add(0, 1, 2, 3);
+  add(0, 1, 4, 5);
+  EXPECT_THAT(Voxelized(mesh, {.points = 5000}).warnings, IsEmpty());
+  add(6, 7, 8, 9);
+  EXPECT_THAT(
+      Voxelized(mesh, {.points = 5000}).warnings,
+      Contains(HasSubstr("cross, so the topology of the mesh is not known; the volume has ")));
 }
 
 TEST(VoxelizePoints, AreMetWhereEveryFacetIsThereFromBothSides) {
