@@ -28,6 +28,7 @@
 #include "client/export/picture/caption.h"
 #include "client/export/text.h"
 #include "client/skeletonize_client.h"
+#include "core/certificate/describe_changes.h"
 #include "core/exec/status_macros.h"
 #include "core/import/image/image_info.h"
 #include "core/import/image/open_image.h"
@@ -73,9 +74,8 @@ struct Totals {
   uint64_t skeleton_points = 0;
   uint64_t nodes = 0;
   uint64_t edges = 0;
-  uint64_t simple_points_left = 0;
-  BettiNumbers topology;
-  BettiNumbers unprepared;               // of the labels that were prepared
+  Certificate certificate;
+  uint64_t changed = 0;                  // labels whose topology changed before thinning
   std::vector<PreparingStep> preparing;  // sums per step; empty: nothing was prepared
 };
 
@@ -91,6 +91,20 @@ void Add(const std::vector<PreparingStep>& one, std::vector<PreparingStep>& sum)
   }
 }
 
+bool KeptToThinning(const Certificate& certificate) {
+  return certificate.MaskKept() && certificate.Given() == certificate.input;
+}
+
+// Changes of labels may cancel out in the sums.
+std::string CheckPhrase(const Totals& totals, size_t labels) {
+  const std::string of_all = VerdictInWords(totals.certificate);
+  if (totals.changed == 0) return of_all;
+  const std::string in_some =
+      absl::StrFormat(", in %d of %s", totals.changed, Counted(labels, "label", "labels"));
+  return (KeptToThinning(totals.certificate) ? "topology changed before thinning" : of_all) +
+         in_some;
+}
+
 Totals TotalsOf(const std::vector<LabelFigures>& labels) {
   Totals totals;
   for (const LabelFigures& label : labels) {
@@ -99,9 +113,8 @@ Totals TotalsOf(const std::vector<LabelFigures>& labels) {
     totals.skeleton_points += label.skeleton_points;
     totals.nodes += label.nodes;
     totals.edges += label.edges;
-    totals.simple_points_left += label.certificate.simple_points_left;
-    totals.topology += label.certificate.skeleton;
-    totals.unprepared += label.certificate.unprepared.value_or(BettiNumbers());
+    totals.certificate += label.certificate;
+    totals.changed += KeptToThinning(label.certificate) ? 0 : 1;
     Add(label.preparing, totals.preparing);
   }
   return totals;
@@ -109,7 +122,7 @@ Totals TotalsOf(const std::vector<LabelFigures>& labels) {
 
 void AddPreparing(Text& text, const Totals& totals) {
   if (totals.preparing.empty()) return;
-  text.Add("\ngiven:     ", exporting::BettiPhrase(totals.unprepared),
+  text.Add("\ngiven:     ", exporting::BettiPhrase(totals.certificate.Given()),
            "\nprepared:  ", PreparingPhrase(totals.preparing));
 }
 
@@ -126,17 +139,12 @@ std::string SummaryText(const LabelsSummary& summary) {
              Counted(summary.arguments.min_voxels, "voxel", "voxels"), " left out");
   }
   AddPreparing(text, totals);
-  const bool sampled = summary.arguments.image.mask.sampling.has_value();
-  const char* from = !totals.preparing.empty() ? "prepared object"
-                     : sampled                 ? "sampled object"
-                                               : "voxels";
   text.Add("\nobjects:   ", Counted(totals.object_points, "point", "points"), ", ",
-           exporting::BettiPhrase(totals.topology),
+           exporting::BettiPhrase(totals.certificate.input),
            "\nskeletons: ", Counted(totals.skeleton_points, "point", "points"), ", ",
            Counted(totals.nodes, "node", "nodes"), ", ", Counted(totals.edges, "edge", "edges"),
-           "\ncheck:     topology kept from every label's ", from, " on, ",
-           Counted(totals.simple_points_left, "simple point", "simple points"), " left",
-           sampled ? "; sampling may have changed the voxels'" : "",
+           "\ncheck:     ", CheckPhrase(totals, summary.labels.size()), ", ",
+           Counted(totals.certificate.simple_points_left, "simple point", "simple points"), " left",
            "\ntime:      ", absl::StrFormat("%.3f", summary.seconds), " s ",
            WhereComputed(summary.arguments), "\n");
   text.Add(FilesText(summary.files));

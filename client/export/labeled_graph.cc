@@ -15,18 +15,6 @@ namespace {
 
 constexpr size_t kMostLabelTriangles = 200'000;
 
-void AddTo(std::optional<BettiNumbers>& sum, const std::optional<BettiNumbers>& one) {
-  if (one.has_value()) (sum.has_value() ? *sum : sum.emplace()) += *one;
-}
-void AddTo(Certificate& sum, const Certificate& one) {
-  AddTo(sum.mask, one.mask);
-  AddTo(sum.unprepared, one.unprepared);
-  sum.input += one.input;
-  sum.skeleton += one.skeleton;
-  sum.simple_points_left += one.simple_points_left;
-  sum.sampled |= one.sampled;
-}
-
 void AddTo(SkeletonGraph& all, const SkeletonGraph& graph) {
   const auto first_node = static_cast<uint32_t>(all.nodes.size());
   const size_t first_point = all.points.size();
@@ -69,7 +57,7 @@ void LabeledSkeletons::Add(uint64_t label, uint64_t voxels, const SkeletonizeRes
   sizes_.push_back(std::max(voxels, result.object_points));
   labels_.names.push_back(label);
   AddTo(all_.graph, result.graph);
-  AddTo(all_.certificate, result.certificate);
+  all_.certificate += result.certificate;
   all_.object_points += result.object_points;
   all_.skeleton_points += result.skeleton_points;
   labels_.of_sheets.resize(all_.graph.sheets.size(), label);

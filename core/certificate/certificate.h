@@ -58,6 +58,19 @@ struct Certificate {
 
   // The numbers of the object as it was given.
   const BettiNumbers& Given() const { return unprepared.has_value() ? *unprepared : input; }
+  // Sums over objects side by side, such as the labels of an image. An object that was not prepared
+  // counts with its input where others were.
+  Certificate& operator+=(const Certificate& other) {
+    if (other.mask.has_value()) mask = mask.value_or(BettiNumbers()) += *other.mask;
+    if (unprepared.has_value() || other.unprepared.has_value()) {
+      unprepared = BettiNumbers(Given()) += other.Given();
+    }
+    input += other.input;
+    skeleton += other.skeleton;
+    simple_points_left += other.simple_points_left;
+    sampled |= other.sampled;
+    return *this;
+  }
   bool TopologyKept() const { return input == skeleton; }
   // Whether the object has the numbers of its mask, if it has one.
   bool MaskKept() const { return !mask.has_value() || *mask == Given(); }

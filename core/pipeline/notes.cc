@@ -182,6 +182,15 @@ void AddEmpty(const SkeletonizeResult& result, Notes& notes) {
   if (result.certificate.Given() == BettiNumbers()) notes.push_back("the object has no points");
 }
 
+// A conversion that is not a sampling keeps the topology.
+void AddSampling(const SkeletonizeResult& result, Notes& notes) {
+  const Certificate& certificate = result.certificate;
+  if (!certificate.sampled || certificate.MaskKept()) return;
+  notes.push_back(
+      "sampling changed the topology: " + DescribeChanges(*certificate.mask, certificate.Given()) +
+      "; the exact conversion (default) keeps it");
+}
+
 void AddPreparing(const SkeletonizeResult& result, Notes& notes) {
   const BettiNumbers &before = result.certificate.Given(), &after = result.certificate.input;
   if (result.object_points == 0 && !result.preparing.empty() && before != BettiNumbers()) {
@@ -212,6 +221,7 @@ void AddSimplePoints(const SkeletonizeResult& result, Notes& notes) {
 std::vector<std::string> NotesOn(const SkeletonizeResult& result) {
   Notes notes;
   AddEmpty(result, notes);
+  AddSampling(result, notes);
   AddPreparing(result, notes);
   AddCavities(result, notes);
   AddFlatObject(result, notes);

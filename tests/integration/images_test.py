@@ -270,7 +270,7 @@ class ImagesTest(harness.TestCase):
         done = harness.bccskel("skeletonize", self.path("line.npy"), "--local", "--sampling",
                                "trilinear", "--density", 0.5, "-o", self.path("s.swc"))
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("changed components 11 -> ", done.stderr)
+        self.assertIn("sampling changed the topology: components 11 -> ", done.stderr)
         self.assertIn("sampling changed components 11 -> ", done.stdout)
         summary = self.skeletonize(self.path("line.npy"), "--sampling", "nearest")
         self.assertTrue(summary["certificate"]["sampled"])

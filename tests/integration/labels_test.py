@@ -181,7 +181,8 @@ class LabelsTest(harness.TestCase):
         text = self.succeed_with_notes("--fill-cavities", "-o", self.path("all.json"))
         self.assertIn("given:     2 components, 0 loops, 3 cavities\n", text)
         self.assertRegex(text, r"prepared:  3 cavities filled \+[0-9]+\n")
-        self.assertIn("from every label's prepared object on", text)
+        self.assertIn("topology of the prepared object kept, preparing changed cavities 3 -> 0, in 2 of "
+                      "2 labels, ", text)
 
     def test_files_of_all_labels_say_which_is_which(self):
         names = [self.path(name) for name in ("all.vtp", "all.graphml", "all.json")]
@@ -215,6 +216,19 @@ class LabelsTest(harness.TestCase):
     def test_a_range_of_labels_is_taken(self):
         summary = self.labels("--label", "3-9", "-o", self.path("a.vtp"))
         self.assertEqual([label["label"] for label in summary["labels"]], [3, 8])
+
+    def test_the_check_says_what_changed_labels_before_thinning(self):
+        def check(*words):
+            done = harness.bccskel("labels", self.image, "-o", self.path("a.csv"), *words)
+            return re.search("^check: +(.*)", done.stdout, re.M).group(1), done.stderr
+        self.assertEqual(check()[0], "topology kept, 0 simple points left")
+        prepared, _ = check("--min-component", "10")
+        self.assertEqual(prepared, "topology of the prepared object kept, preparing changed components "
+                         "5 -> 4, in 1 of 5 labels, 0 simple points left")
+        sampled, said = check("--sampling", "nearest", "--density", "0.2")
+        self.assertRegex(sampled, "topology of the sampled object kept, sampling changed .*, in [1-5] "
+                         "of 5 labels, 0 simple")
+        self.assertIn("sampling changed the topology: ", said)
 
     def test_a_range_may_begin_at_the_background_which_is_left_out(self):
         summary = self.labels("--label", "0-9", "-o", self.path("a.vtp"))

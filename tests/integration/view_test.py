@@ -113,7 +113,7 @@ class ViewTest(PageTestCase):
         harness.bccskel("skeletonize", self.path("line.npy"), "--local", "--min-component", "100",
                         "-o", self.path("s.html"))  # which is not sampling
         self.assertEqual(self.open().text("#verdict"),
-                         "preparing changed components 11 \u2192 0; kept from there on")
+                         "preparing changed components 11 \u2192 0; kept by thinning")
 
     def test_curves_lead_from_node_to_node(self):
         self.page("tree")

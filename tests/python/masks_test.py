@@ -131,7 +131,7 @@ class MasksTest(harness.TestCase):
 
     def test_a_sampling_that_changes_the_topology_warns(self):
         noise = numpy.random.default_rng(1).random((20, 20, 20)) > 0.6
-        with self.assertWarnsRegex(UserWarning, "the conversion to the lattice changed"):
+        with self.assertWarnsRegex(UserWarning, "sampling changed the topology: "):
             skeleton = bccskel.skeletonize(noise, sampling="nearest", density=0.5)
         self.assertFalse(skeleton.certificate["topology_kept"])
 

@@ -72,11 +72,8 @@ absl::Status Certify(const cli::ImageStage& image, const MaskOptions& options, O
   certificate.mask = image.mask;
   outcome.warnings.insert(outcome.warnings.end(), image.warnings.begin(), image.warnings.end());
   const std::string changes = DescribeChanges(image.mask, certificate.Given());
-  if (changes.empty()) return absl::OkStatus();
-  const std::string message = "the conversion to the lattice changed " + changes;
-  if (!options.sampling.has_value()) return absl::InternalError(message);
-  outcome.warnings.push_back(message);
-  return absl::OkStatus();
+  if (changes.empty() || options.sampling.has_value()) return absl::OkStatus();
+  return absl::InternalError("the conversion to the lattice changed " + changes);
 }
 
 }  // namespace

@@ -84,8 +84,8 @@ function showCertificate() {
   const made = [...bySampling, ...changes("preparing", given, input)].join("; ");
   element("verdict").className = kept && bySampling.length === 0 ? "" : "bad";
   element("verdict").textContent = !kept ? "\u2717 TOPOLOGY NOT KEPT"
-    : made ? `${made}; kept from there on`
-      : sampled ? "\u2713 kept from the sampled object on; sampling may have changed the image's"
+    : made ? `${made}; kept by thinning`
+      : sampled ? "\u2713 kept by thinning; sampling may have changed the image's"
         : "\u2713 topology kept";
   const digest = String(result.sha256 ?? "");
   element("digest").textContent = digest && `sha256 ${digest.slice(0, 12)}\u2026`;

@@ -27,5 +27,24 @@ TEST(VerdictInWords, NamesEachStepThatChangedTheTopology) {
   EXPECT_EQ(VerdictInWords({.mask = kOne, .input = kOne, .skeleton = kOther}), "TOPOLOGY NOT KEPT");
 }
 
+TEST(Certificate, OfObjectsSideBySideIsTheSum) {
+  Certificate sum;
+  sum += {.mask = kOne, .input = kOne, .skeleton = kOne};
+  sum += {.mask = kThird,
+          .unprepared = kThird,
+          .input = kOther,
+          .skeleton = kOther,
+          .simple_points_left = 4,
+          .sampled = true};
+  const BettiNumbers given = {3, 3, 3}, thinned = {2, 3, 0};
+  const Certificate expected = {.mask = given,
+                                .unprepared = given,
+                                .input = thinned,
+                                .skeleton = thinned,
+                                .simple_points_left = 4,
+                                .sampled = true};
+  EXPECT_EQ(sum, expected);
+}
+
 }  // namespace
 }  // namespace bccskel
