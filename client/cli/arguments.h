@@ -117,6 +117,7 @@ struct ConvertArguments {
   std::string result;
   std::vector<std::string> outputs;
   std::optional<RootChoice> root;
+  std::optional<std::string> unit;  // instead of that of the result
   exporting::CurveSampling swc;
 };
 

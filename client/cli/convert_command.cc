@@ -7,6 +7,7 @@
 #include "client/cli/arguments.h"
 #include "client/cli/common_options.h"
 #include "client/cli/console.h"
+#include "client/cli/image_options.h"
 #include "client/cli/load_object.h"
 #include "client/cli/progress_bar.h"
 #include "client/cli/summaries.h"
@@ -61,8 +62,9 @@ ExitCode WriteGraphs(const ConvertArguments& arguments, const view::ResultDocume
                      const ProgressBar& bar, const exec::Context& context,
                      std::vector<WrittenFile>& files) {
   if (std::ranges::none_of(arguments.outputs, exporting::HoldsGraph)) return ExitCode::kOk;
-  const absl::StatusOr<view::ResultGraph> result = view::ResultGraphOf(document, context.stop);
+  absl::StatusOr<view::ResultGraph> result = view::ResultGraphOf(document, context.stop);
   if (!result.ok()) return Fail(WithPath(result.status(), arguments.result));
+  result->unit = arguments.unit.value_or(result->unit);
   const std::optional<RootChoice>& root =
       arguments.root.has_value() ? arguments.root : result->root;
   std::optional<TreeOrder> order;
@@ -106,15 +108,17 @@ void AddConvert(CLI::App& command, ConvertArguments& arguments) {
       });
   AddRoot(command, arguments.root);
   AddSwcStep(command, arguments.swc);
+  AddUnit(command, arguments.unit, "Unit of lengths, such as um, instead of that of the result");
   AddProgress(command, arguments.common.progress);
   AddJson(command, arguments.common);
 }
 
 ExitCode Run(const ConvertArguments& arguments, const std::stop_token& stop) {
-  if (arguments.root.has_value() && std::ranges::any_of(arguments.outputs, HoldsDocument)) {
-    return FailWith(ExitCode::kUsage,
-                    absl::InvalidArgumentError("--root orders the other formats; .json, .svg, .png "
-                                               "and .html show the result as it is"));
+  const bool changes = arguments.root.has_value() || arguments.unit.has_value();
+  if (changes && std::ranges::any_of(arguments.outputs, HoldsDocument)) {
+    return FailWith(ExitCode::kUsage, absl::InvalidArgumentError(
+                                          "--root and --unit are for the other formats; .json, "
+                                          ".svg, .png and .html show the result as it is"));
   }
   const ProgressBar bar(arguments.common.progress);
   bar.Begin("reading", arguments.result);

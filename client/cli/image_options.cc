@@ -18,6 +18,7 @@
 #include "absl/strings/str_split.h"
 #include "client/cli/option_values.h"
 #include "core/exec/status_macros.h"
+#include "core/lattice/length_unit.h"
 #include "core/mask/mask_sampler.h"
 
 namespace bccskel::cli {
@@ -241,6 +242,17 @@ absl::StatusOr<ForegroundRule> UprightRule(const ImageArguments& arguments) {
 
 }  // namespace
 
+void AddUnit(CLI::App& command, std::optional<std::string>& unit, const char* description) {
+  const auto read = [&unit](const std::string& given) {
+    if (!NanometersOf(given).has_value()) {
+      throw CLI::ValidationError("--unit " + given +
+                                 ": must be a unit of length, such as nm, um, mm, cm or m");
+    }
+    unit = UnitNamed(given);
+  };
+  command.add_option_function<std::string>("--unit", read, description)->option_text("UNIT");
+}
+
 void AddImageLayout(CLI::App& command, ImageArguments& arguments) {
   command
       .add_option_function<std::string>(
@@ -248,6 +260,8 @@ void AddImageLayout(CLI::App& command, ImageArguments& arguments) {
           [&arguments](const std::string& given) { arguments.open.spacing = VoxelSizeOf(given); },
           "Spacing of the voxels, instead of the one in the file: one number for cubes, or three")
       ->option_text("X[,Y,Z]");
+  AddUnit(command, arguments.open.unit,
+          "Unit of lengths, such as um, instead of the one in the file");
   const auto choose = [&command](const char* name, std::optional<int64_t>& chosen,
                                  const char* description) {
     AddCount<uint32_t>(

@@ -104,6 +104,9 @@ struct CollectedLabels {
 absl::StatusOr<CollectedLabels> CollectLabels(ImageSource& source, const ImageArguments& arguments,
                                               uint64_t min_voxels, const exec::Context& context);
 
+// --unit of lengths, one that NanometersOf() knows.
+void AddUnit(CLI::App& command, std::optional<std::string>& unit, const char* description);
+
 // The error that no voxel has one of these labels, with those of the image: a source that has not
 // been read.
 absl::Status NoSuchLabel(const std::vector<uint64_t>& labels, ImageSource& source);

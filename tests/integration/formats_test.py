@@ -322,7 +322,7 @@ class FormatsTest(harness.TestCase):
         self.fail_with(2, "convert writes .json", "convert", self.folders / "tree" / "s.json",
                        "-o", self.path("x.exr"))
         for ending in ("json", "svg", "html"):
-            self.fail_with(2, "--root orders the other formats", "convert",
+            self.fail_with(2, "--root and --unit are for the other formats", "convert",
                            self.folders / "tree" / "s.json", "--root", "thickest-node",
                            "-o", self.path(f"x.{ending}"))
 
@@ -382,6 +382,24 @@ class FormatsTest(harness.TestCase):
                       ("skeletonize", self.path("labels.npy"), "--local")):
             said = self.succeed(*words, "-o", self.path("n.precomputed"))
             self.assertRegex(said, r"n\.precomputed[, (]+the input does not state its unit")
+            said = self.succeed(*words, "--unit", "micron", "-o", self.path("um.precomputed"))
+            self.assertNotIn("unit", said)
+
+    def test_a_unit_is_stated_for_an_image_or_a_result_without_one(self):
+        numpy.save(self.path("bar.npy"), numpy.pad(numpy.ones((3, 3, 12), "u1"), 1))
+        words = ("skeletonize", self.path("bar.npy"), "--local")
+        self.succeed(*words, "--unit", "um", "-o", self.path("um.json"), "-o", self.path("um.csv"))
+        self.assertEqual(self.read_json("um.json")["unit"], "um")
+        self.assertIn(",um\n", (self.folder / "um.csv").read_text())
+        self.succeed(*words, "-o", self.path("none.json"))
+        self.succeed("convert", self.path("none.json"), "--unit", "cm", "-o", self.path("cm.csv"), "-o",
+                     self.path("cm.mrk.json"))
+        self.assertIn(",cm\n", (self.folder / "cm.csv").read_text())
+        ends = [[point["position"][0] for point in
+                 self.read_json("cm.mrk.json")["markups"][0]["controlPoints"]]]
+        self.assertGreater(max(map(abs, ends[0])), 50)  # mm
+        self.fail_with(2, "--unit furlong: must be a unit of length, such as nm, um, mm", *words,
+                       "--unit", "furlong", "-o", self.path("x.csv"))
 
     def test_precomputed_skeletons_do_not_replace_the_info_of_a_volume(self):
         (self.folder / "x.precomputed").mkdir()

@@ -66,6 +66,7 @@ class MeshOptions(SkeletonOptions, total=False):
 
 class FileOptions(TypedDict, total=False):
     voxel_size: Union[float, Tuple[float, float, float]]
+    unit: str
     channel: int
     time: int
     level: int

@@ -25,6 +25,8 @@ struct ImageOptions {
   std::optional<RawLayout> raw;
   // Overrides the spacing of the file, or supplies a missing one.
   std::optional<std::array<double, 3>> spacing;
+  // The same for the unit of lengths.
+  std::optional<std::string> unit;
   // Of a TIFF file or OME-Zarr folder with several, counted from 0; of a segmentation of DICOM a
   // segment, by its number.
   std::optional<int64_t> channel;

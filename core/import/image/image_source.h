@@ -37,6 +37,8 @@ class ImageSource {
   // Replaces the spacing of the file. Errors: as PlacementOfSpacing().
   absl::Status SetSpacing(const std::array<double, 3>& spacing);
 
+  void SetUnit(const std::string& unit) { info_.unit = unit; }
+
   // The slice z = 0, then 1, and so on; its values live until the next call.
   // Errors: INVALID_ARGUMENT (cut or damaged data), OUT_OF_RANGE after the last slice,
   //         RESOURCE_EXHAUSTED (memory), and read errors of the system.

@@ -168,8 +168,10 @@ absl::StatusOr<std::unique_ptr<ImageSource>> OpenNamed(
   try {
     auto source = open();
     absl::Status status = source.status();
-    if (status.ok() && options.spacing.has_value())
+    if (status.ok() && options.spacing.has_value()) {
       status = (*source)->SetSpacing(*options.spacing);
+    }
+    if (status.ok() && options.unit.has_value()) (*source)->SetUnit(*options.unit);
     if (status.ok()) return source;
     return absl::Status(status.code(), absl::StrFormat("image '%s': %s", name, status.message()));
   } catch (const std::bad_alloc&) {
