@@ -188,40 +188,43 @@ class Voxelizer {
   absl::Status CompareTopology(VoxelizeResult& result) {
     const SolidTopology found = AsSolid(*result.topology);
     if (surface_.report.closure == SurfaceClosure::kOpen) {
-      warnings_.push_back("the volume has " + InWords(found) +
-                          "; the topology of an open mesh is not known: check these numbers" +
-                          (found.components > 1 ? " (--join-gaps X joins components)" : ""));
-      return absl::OkStatus();
+      return WarnOfUnknownTopology("an open mesh", found, result.volume);
     }
     const std::optional<SolidTopology> mesh = ExpectedTopology(surface_.report, result.fill);
-    if (!mesh) return WarnOfUnknownTopology(found);
-    if (*mesh == found) return absl::OkStatus();
-    BCCSKEL_RETURN_IF_ERROR(Repair(*mesh, result));
-    if (*mesh == AsSolid(*result.topology)) return absl::OkStatus();
+    if (mesh == found) return absl::OkStatus();
+    if (mesh) BCCSKEL_RETURN_IF_ERROR(Repair(*mesh, result));
+    if (mesh == AsSolid(*result.topology)) return absl::OkStatus();
     BCCSKEL_ASSIGN_OR_RETURN(const CrossingCount crossings, CountCrossings(surface_, context_));
+    if (!mesh && crossings.total() == 0) return absl::OkStatus();
+    if (!mesh) return WarnOfUnknownTopology("a mesh that crosses itself", found, result.volume);
     const bool is_union = crossings.within_parts == 0 && crossings.between_parts > 0 &&
                           result.fill == FillRule::kWinding;
     misses_topology_ = !is_union;
-    warnings_.push_back("the volume has " + InWords(AsSolid(*result.topology)) +
-                        ", but the mesh has " + InWords(*mesh) + ": " +
-                        (is_union ? "its parts overlap, and the volume is their union"
-                                  : CauseInWords(crossings.total(), result.volume)));
+    warnings_.push_back(
+        "the volume has " + InWords(AsSolid(*result.topology)) + ", but the mesh has " +
+        InWords(*mesh) + ": " +
+        (is_union ? "its parts overlap, and the volume is their union"
+                  : CauseInWords(crossings.total(), result.volume) +
+                        TunnelsInWords(result.topology->loops - mesh->loops, result.volume)));
     return absl::OkStatus();
   }
 
-  // Of a closed mesh with edges in more than two triangles.
-  absl::Status WarnOfUnknownTopology(const SolidTopology& found) {
-    BCCSKEL_ASSIGN_OR_RETURN(const CrossingCount crossings, CountCrossings(surface_, context_));
-    if (crossings.total() == 0) return absl::OkStatus();
-    warnings_.push_back(CrossingsInWords(crossings.total()) +
-                        ", so the topology of the mesh is not known; the volume has " +
-                        InWords(found) + ": check these numbers");
+  absl::Status WarnOfUnknownTopology(const char* of, const SolidTopology& found,
+                                     const Volume& volume) {
+    warnings_.push_back("the volume has " + InWords(found) + "; the topology of " + of +
+                        " is not known: check these numbers" +
+                        (found.components > 1 ? " (--join-gaps X joins components)" : "") +
+                        TunnelsInWords(found.loops, volume));
     return absl::OkStatus();
   }
 
-  static std::string CrossingsInWords(uint64_t crossings) {
-    return Counted(static_cast<int64_t>(crossings), "pair of triangles crosses",
-                   "pairs of triangles cross");
+  // Seams between parts that touch or cross, such as cushions, make rows of tunnels.
+  static std::string TunnelsInWords(int64_t loops, const Volume& volume) {
+    constexpr int64_t kMany = 8;
+    constexpr double kCells = 3;
+    if (loops < kMany) return "";
+    return absl::StrFormat("; --cut-loops %.2g closes tunnels narrower than three cells",
+                           kCells * volume.placement().spacing[0]);
   }
 
   std::string CauseInWords(uint64_t crossings, const Volume& volume) const {
@@ -230,7 +233,8 @@ class Voxelizer {
              "resolve, or parts touch or coincide, which only a change of the mesh resolves" +
              WallsInWords(volume);
     }
-    return CrossingsInWords(crossings) +
+    return Counted(static_cast<int64_t>(crossings), "pair of triangles crosses",
+                   "pairs of triangles cross") +
            "; repair the mesh; --denoise 1, which removes thin spots and small holes, may help";
   }
 

@@ -102,9 +102,8 @@ TEST(VoxelizeWarnings, TellThatTheTopologyIsNotKnownWhereANonManifoldMeshCrosses
   add(0, 1, 4, 5);
   EXPECT_THAT(Voxelized(mesh, {.points = 5000}).warnings, IsEmpty());
   add(6, 7, 8, 9);
-  EXPECT_THAT(
-      Voxelized(mesh, {.points = 5000}).warnings,
-      Contains(HasSubstr("cross, so the topology of the mesh is not known; the volume has ")));
+  EXPECT_THAT(Voxelized(mesh, {.points = 5000}).warnings,
+              Contains(HasSubstr("; the topology of a mesh that crosses itself is not known")));
 }
 
 TEST(VoxelizePoints, AreMetWhereEveryFacetIsThereFromBothSides) {

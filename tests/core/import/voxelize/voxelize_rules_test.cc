@@ -179,6 +179,18 @@ TEST(FillRule, OpenSurfacesAreRefusedUnlessWindingIsAskedFor) {
   EXPECT_EQ(result.topology, (BettiNumbers{1, 0, 0}));
 }
 
+TEST(FillRule, ManyTunnelsOfAnOpenMeshComeWithTheOptionThatClosesThem) {
+  TriangleMesh parts = CutSphere(0.5);
+  const auto hint = Contains(HasSubstr("; --cut-loops 0.3 closes tunnels narrower than three "));
+  for (int n = 0; n < 8; ++n) {
+    EXPECT_THAT(WithSpacing(parts, 0.1, FillRule::kWinding).warnings, Not(hint)) << n;
+    TriangleMesh ring = testing::Torus(0.5, 0.2);
+    for (auto& v : ring.vertices) v[0] += 3 + 2 * n;
+    parts = Merged(parts, ring);
+  }
+  EXPECT_THAT(WithSpacing(parts, 0.1, FillRule::kWinding).warnings, hint);
+}
+
 // The signed volumes cancel, and the sphere that then faces inward is not filled.
 TEST(FillRule, PartsOfAnOpenMeshThatTurnAgainstEachOtherGetAWarning) {
   const TriangleMesh open = CutSphere(0.9);
