@@ -7,6 +7,9 @@ namespace {
 
 // Up to this share of the surface, holes hardly leave a doubt about the inside.
 constexpr double kMostHoles = 0.1;
+// Of an open mesh that is filled without being asked for: the share of the edges between triangles
+// that turn against each other. A few wrong triangles hardly change winding numbers.
+constexpr double kMostMisoriented = 0.01;
 
 std::string DescribeDefects(const MeshReport& mesh) {
   const auto counted = [](uint64_t edges, const char* kind) {
@@ -39,7 +42,9 @@ int64_t CountAmbiguousShells(const MeshReport& mesh) {
 absl::StatusOr<FillRule> ChooseFillRule(const MeshReport& mesh, FillRule wanted) {
   const bool open = mesh.closure == SurfaceClosure::kOpen;
   if (open && wanted == FillRule::kAuto) {
-    if (mesh.hole_share <= kMostHoles && mesh.misoriented_edges == 0) return FillRule::kWinding;
+    const double misoriented = static_cast<double>(mesh.misoriented_edges);
+    const bool turns_one_way = misoriented <= kMostMisoriented * static_cast<double>(mesh.edges);
+    if (mesh.hole_share <= kMostHoles && turns_one_way) return FillRule::kWinding;
     const char* const what = mesh.two_sided_triangles == 0
                                  ? "the mesh"
                                  : "nothing enclosed: every triangle is there from both sides, and "

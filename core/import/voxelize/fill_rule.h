@@ -13,8 +13,8 @@ namespace bccskel {
 //
 // kAuto     closed and consistently oriented surfaces: kWinding. Closed ones with inconsistent
 //           orientation: kParity, with a warning. Open ones whose holes make up at most a tenth of
-//           the surface: kWinding, with a warning; other open ones, and open ones of inconsistent
-//           orientation, are refused.
+//           the surface, and of whose edges at most a hundredth lie between triangles that turn
+//           against each other: kWinding, with a warning; other open ones are refused.
 // kParity   inside where a ray crosses the surface an odd number of times. Needs a closed surface.
 //           Where parts overlap there is a hole; a nested shell is a cavity whatever its
 //           orientation; a part given twice vanishes.
