@@ -27,8 +27,8 @@ std::string HintFor(std::string_view error, const CLI::App& command) {
   }
   constexpr std::array kForOneObject = {"--range", "--threshold", "--below", "--invert"};
   if (error.starts_with("labels has no option ") && std::ranges::any_of(kForOneObject, says)) {
-    return "labels takes each value for an object, or those of --label; skeletonize takes the "
-           "voxels of a range or threshold for one object";
+    return "labels makes an object of each value, or of those of --label; skeletonize makes one "
+           "object of a range or threshold";
   }
   constexpr std::array kSeeHelp = {" is required", " are required", " has no option ",
                                    "there is no command "};
@@ -47,8 +47,10 @@ std::string Required(const CLI::App& command) {
     if (option->get_required() && option->count() == 0) names.push_back(option->get_name());
   }
   if (names.empty()) return "";
-  return absl::StrCat(absl::StrJoin(names, " and "), names.size() == 1 ? " is" : " are",
-                      " required");
+  if (names.size() == 1) return names[0] + " is required";
+  const std::string last = " and " + names.back();
+  names.pop_back();
+  return absl::StrCat(absl::StrJoin(names, ", "), last, " are required");
 }
 
 // The number of letters to change, add or remove to turn one word into the other.
@@ -138,8 +140,10 @@ std::optional<Complaint> TooManyFiles(const std::vector<std::string>& rest,
                                         rest.size() == 1 ? ": " : "s: ", absl::StrJoin(rest, ", "),
                                         "; ", command.get_name(), " takes one ", name);
   double number = 0;
-  if (std::ranges::any_of(rest,
-                          [&](const auto& word) { return absl::SimpleAtod(word, &number); })) {
+  const CLI::Option* size = command.get_option_no_throw("--voxel-size");
+  if (size != nullptr && size->count() > 0 && std::ranges::any_of(rest, [&](const auto& word) {
+        return absl::SimpleAtod(word, &number);
+      })) {
     return Complaint{what,
                      "separate the numbers of an option by commas, such as --voxel-size 1,1,2.5"};
   }

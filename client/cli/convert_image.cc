@@ -91,7 +91,7 @@ std::vector<std::string> WarningsOf(const ImageInfo& info, const GrayLevels& lev
   } else if (object == info.size.Voxels()) {
     warnings.emplace_back(levels.HasOneValue()
                               ? "the object fills the whole image, whose voxels seem to have one "
-                                "value: check the file"
+                                "value: check the image"
                               : "the object fills the whole image; --threshold or --below selects "
                                 "a part of it");
   }

@@ -138,7 +138,8 @@ void AddConversion(CLI::App& command, ImageArguments& arguments) {
           "--density",
           [&arguments](double points) {
             if (!arguments.mask.sampling.has_value()) {
-              throw CLI::ValidationError("--density needs --sampling nearest or trilinear");
+              throw CLI::ValidationError(
+                  "--density needs --sampling nearest or --sampling trilinear");
             }
             arguments.mask.sampling->points_per_voxel = points;
           },

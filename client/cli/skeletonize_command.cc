@@ -373,7 +373,7 @@ ExitCode RunShared(const SharedWork& work, const SkeletonizeArguments& given,
   absl::StatusOr<std::vector<WrittenFile>> files =
       WriteOutputs(arguments, *object, *computed, team.context(), bar);
   if (!files.ok()) return FailWriting(arguments, files.status());
-  bar.Begin("writing images");
+  if (arguments.images.wanted()) bar.Begin("writing images");
   const absl::Status shown = WriteImages(arguments, *object, result->graph, team.context(), *files);
   if (!shown.ok()) return FailWith(ExitCode::kOutput, shown);
   const ExitCode printed = PrintSummary({arguments, object->volume, *result, object->mesh,

@@ -91,7 +91,7 @@ std::string MeshText(const MeshReport& report, std::optional<uint64_t> crossings
            GroupedDigits(report.dropped_triangles), " degenerate ones dropped",
            report.two_sided_triangles == 0
                ? ""
-               : "; " + GroupedDigits(report.two_sided_triangles) + " there from both sides",
+               : "; " + GroupedDigits(report.two_sided_triangles) + " present from both sides",
            ")\n");
   text.Add("surface:     ");
   AddClosure(text, report);

@@ -340,7 +340,9 @@ std::vector<std::string> FirstOutputsOf(const Chosen& arguments) {
 absl::Status CheckServerFiles(const Arguments& arguments) {
   const ServerArguments* server =
       std::visit([](const auto& chosen) { return ServerOf(chosen); }, arguments);
-  return server == nullptr ? absl::OkStatus() : EndpointOf(*server).status();
+  if (server == nullptr) return absl::OkStatus();
+  BCCSKEL_ASSIGN_OR_RETURN(const client::Endpoint endpoint, EndpointOf(*server));
+  return client::CheckEndpoint(endpoint);
 }
 
 absl::Status CheckOutputs(const Arguments& arguments) {

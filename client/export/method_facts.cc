@@ -36,8 +36,8 @@ MethodFacts MethodFactsOf(const SkeletonizeResult& result, const World& world) {
 MethodFacts MethodFactsOf(const view::ResultFacts& result) {
   MethodFacts facts = {{"method", result.method},
                        {"algorithm_version", result.algorithm_version},
-                       {"world", result.world},
-                       {"unit", result.unit}};
+                       {"world", std::string(OrUnknown(result.world))},
+                       {"unit", std::string(OrUnknown(result.unit))}};
   facts.insert(facts.end(), result.options.begin(), result.options.end());
   AddChanges(result.steps, result.certificate, facts);
   return facts;

@@ -9,8 +9,7 @@
 namespace bccskel::exporting {
 
 // Wavefront OBJ: one `l` element per edge, its smooth curve, one `p` element per isolated node.
-// World coordinates; OBJ cannot hold radii;
-// comments hold the facts of the context.
+// World coordinates; OBJ cannot hold radii. Comments hold the facts of the context.
 std::string ObjText(const SkeletonGraph& graph, const GraphContext& context = {});
 
 }  // namespace bccskel::exporting

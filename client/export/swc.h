@@ -14,7 +14,7 @@ namespace bccskel::exporting {
 
 struct SwcOptions {
   CurveSampling sampling = {};
-  MethodFacts facts = {};     // of the header
+  MethodFacts facts = {};     // of the header, which states world and unit only if these do
   std::stop_token stop = {};  // ends early; the text is then incomplete
 };
 

@@ -22,8 +22,7 @@ inline std::string NoteOnUnit(const World& world, const std::string& taken_for) 
   if (NanometersOf(world.unit).has_value()) return "";
   return (world.unit.empty() ? "the input does not state its unit of length"
                              : "the unit '" + world.unit + "' is not a known unit of length") +
-         "; coordinates are taken for " + taken_for +
-         "; --unit states it, also of `bccskel convert`";
+         "; coordinates are taken for " + taken_for;
 }
 
 inline std::string_view OrUnknown(std::string_view text) { return text.empty() ? "unknown" : text; }

@@ -25,8 +25,8 @@ bool IsInside(const ThinSet& set, LatticePoint end, LatticePoint other, LatticeP
   return sections.WayOut(from, Unit(way), 0, length) >= length;
 }
 
-// Whether the object behind the fork, half the chord away on the curve of another arm, is as wide
-// as there. Between two legs that spread, the pelvis is wide, and the trunk is not.
+// Whether the object behind the fork, half the chord away on the curve of another arm, is about as
+// wide as the chord is long. Between two legs that spread, the pelvis is, and the trunk is not.
 bool IsAsWideBehind(const ThinSet& set, std::span<const Arm> arms, const Arm& twin,
                     LatticePoint end, double chord, CrossSections& sections) {
   return std::ranges::any_of(arms, [&](const Arm& arm) {

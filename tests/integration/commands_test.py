@@ -141,13 +141,19 @@ class CommandsTest(harness.TestCase):
         self.assertEqual(mesh["mesh"]["genus"], 0)
         self.assertTrue(mesh["mesh"]["watertight"])
         self.assertEqual(mesh["mesh"]["crossings"], 0)
-        lines = open(self.path("a.off")).read().split("\n")
-        double = [line for line in lines if line.startswith("3 ")]
-        turned = [" ".join(["3", *line.split()[:0:-1]]) for line in double]
-        text = "\n".join(line for line in lines if line and line not in double)
-        self.write("b.off", text.replace(f" {len(double)} ", f" {2 * len(double)} ") + "\n" +
-                   "\n".join(double + turned) + "\n")
-        self.assertIn(f"{len(double)} there from both sides", self.succeed("info", self.path("b.off")))
+        faces = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+
+        def info(points, faces):
+            lines = ["OFF", f"{len(points)} {len(faces)} 0"]
+            lines += [" ".join(map(str, point)) for point in points]
+            lines += ["3 " + " ".join(map(str, face)) for face in faces]
+            return self.succeed("info", self.write("b.off", "\n".join(lines) + "\n"))
+        corners = [(0, 0, 0), (9, 0, 0), (0, 9, 0), (0, 0, 9)]
+        self.assertIn("; 4 present from both sides)",
+                      info(corners, faces + [face[::-1] for face in faces]))
+        needle = [(1, 1, -3), (2, 1, -3), (1, 2, -3), (1, 1, 4)]
+        self.assertIn("crossings:   3 pairs of triangles\n",
+                      info(corners + needle, faces + [[n + 4 for n in face] for face in faces]))
         volume = json.loads(self.succeed("info", self.generate("hollow-ball"), "--json"))
         self.assertEqual(volume["volume"]["topology"],
                          {"components": 1, "loops": 0, "cavities": 1})

@@ -395,9 +395,9 @@ class FormatsTest(harness.TestCase):
         self.succeed("convert", self.path("none.json"), "--unit", "cm", "-o", self.path("cm.csv"), "-o",
                      self.path("cm.mrk.json"))
         self.assertIn(",cm\n", (self.folder / "cm.csv").read_text())
-        ends = [[point["position"][0] for point in
-                 self.read_json("cm.mrk.json")["markups"][0]["controlPoints"]]]
-        self.assertGreater(max(map(abs, ends[0])), 50)  # mm
+        ends = [point["position"][0] for point in
+                self.read_json("cm.mrk.json")["markups"][0]["controlPoints"]]
+        self.assertGreater(max(map(abs, ends)), 50)  # mm
         self.fail_with(2, "--unit furlong: must be a unit of length, such as nm, um, mm", *words,
                        "--unit", "furlong", "-o", self.path("x.csv"))
 

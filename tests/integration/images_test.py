@@ -220,7 +220,7 @@ class ImagesTest(harness.TestCase):
                 self.assertEqual((summary["image"]["warnings"], summary["notes"]),
                                  ([warning], ["the object has no points"]))
         for name, rule, advice in (
-                ("full", (), ", whose voxels seem to have one value: check the file"),
+                ("full", (), ", whose voxels seem to have one value: check the image"),
                 ("a", ("--threshold", 0), "; --threshold or --below selects a part of it")):
             warning, = self.skeletonize(self.path(name + ".npy"), *rule)["image"]["warnings"]
             self.assertEqual(warning, "the object fills the whole image" + advice)
@@ -284,7 +284,9 @@ class ImagesTest(harness.TestCase):
                 self.path("v.html"))
         self.assertRegex(harness.bccskel(*view).stderr,
                          "of a sampling: add --sampling and --density as they were\n")
-        self.assertNotIn("was made from", harness.bccskel(*view, *sampling).stderr)
+        done = harness.bccskel(*view, *sampling)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertNotIn("was made from", done.stderr)
 
     def test_voxels_have_as_many_points_as_asked_for(self):
         numpy.save(self.path("cube.npy"), numpy.ones((10, 10, 10), "u1"))

@@ -285,7 +285,7 @@ def read(path: _Path, **options: Unpack[FileOptions]) -> Union[Image, Mesh, Latt
 
     options, of images: channel and time (of TIFF and OME-Zarr), level (of folders),
         series (of DICOM), array (of npz), voxel_size=(z, y, x) or one number for cubes, unit
-        ("um") where the file states none, and
+        ("um") instead of the file's, and
         raw_size=(z, y, x), raw_type, raw_order and raw_header for files without a header.
 
     Raises FileNotFoundError, PermissionError; ValueError for a file of another kind or with an

@@ -81,12 +81,11 @@ function showCertificate() {
     return changed.length > 0 ? [`${step} changed ${changed.join(", ")}`] : [];
   };
   const bySampling = changes("sampling", mask, given);
-  const made = [...bySampling, ...changes("preparing", given, input)].join("; ");
+  const maybe = sampled && bySampling.length === 0 ? ["sampling may have changed the image's"] : [];
+  const made = [...bySampling, ...changes("preparing", given, input), ...maybe].join("; ");
   element("verdict").className = kept && bySampling.length === 0 ? "" : "bad";
   element("verdict").textContent = !kept ? "\u2717 TOPOLOGY NOT KEPT"
-    : made ? `${made}; kept by thinning`
-      : sampled ? "\u2713 kept by thinning; sampling may have changed the image's"
-        : "\u2713 topology kept";
+    : made ? `kept by thinning; ${made}` : "\u2713 topology kept";
   const digest = String(result.sha256 ?? "");
   element("digest").textContent = digest && `sha256 ${digest.slice(0, 12)}\u2026`;
   element("digest").title = digest;

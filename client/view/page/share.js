@@ -18,7 +18,7 @@ function branchCsv() {
                 "coord_dst_y", "coord_dst_z", "pruning_level",
                 ...(ordered ? ["generation", "strahler"] : []), "world", "unit"];
   const quoted = (text) => /[",]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
-  const frame = [result.world, result.unit].map((text) => quoted(text ?? "unknown"));
+  const frame = [result.world, result.unit].map((text) => quoted(text || "unknown"));
   const rows = table.rows.map((b) => [
     ...(labels ? [partName(b.part)] : []), b.component, b.id, b.source, b.target, b.type, b.length, b.straight, b.tortuosity, b.mean,
     b.min, b.max, ...nodeAt[b.source].position, ...nodeAt[b.target].position, b.level,

@@ -134,10 +134,14 @@ class Words {
       WriteFitting(both, 4.4 * size_, 1, kSoft, CAIRO_FONT_WEIGHT_NORMAL);
       return;
     }
-    double y = 4.1;
-    for (const std::string& line : LinesOf(object + "\n" + skeleton)) {
-      WriteFitting(line, y * size_, 1, kSoft, CAIRO_FONT_WEIGHT_NORMAL);
-      y += 1.4;
+    constexpr size_t kMostLines = 3;  // above the object; the last one holds all other words
+    std::vector<std::string> lines = LinesOf(object + "\n" + skeleton);
+    for (; lines.size() > kMostLines; lines.pop_back()) {
+      lines[lines.size() - 2] += " " + lines.back();
+    }
+    for (size_t n = 0; n < lines.size(); ++n) {
+      const double y = 4.1 + 1.35 * static_cast<double>(n);
+      WriteFitting(lines[n], y * size_, 1, kSoft, CAIRO_FONT_WEIGHT_NORMAL);
     }
   }
 

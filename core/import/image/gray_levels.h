@@ -27,7 +27,7 @@ class GrayLevels {
   // Values below and above 0, but none in a hundred is 0: of a mask, all would be object.
   bool HasBothSigns() const;
 
-  // There are values but 0, and all are equal.
+  // There are nonzero values, and all are equal.
   bool HasOneValue() const;
 
   // Whole numbers of several values above 0, each mostly beside itself or 0: of labels, not of the

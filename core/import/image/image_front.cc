@@ -52,8 +52,8 @@ absl::StatusOr<std::shared_ptr<const ImageFile>> Expanded(std::shared_ptr<const 
     if (got < kStep) return ImageFile::OfBytes(file->name(), std::move(bytes));
     if (bytes.size() >= kMaxBytes) {
       return absl::ResourceExhaustedError(
-          absl::StrFormat("a file of this format compressed by gzip as a whole may have %d bytes; "
-                          "expand it with gunzip first",
+          absl::StrFormat("a file that is compressed by gzip and must be expanded in memory may "
+                          "have at most %d bytes; expand it with gunzip first",
                           kMaxBytes));
     }
   }

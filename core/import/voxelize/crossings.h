@@ -19,7 +19,7 @@ struct CrossingCount {
 
 // Counts the pairs of triangles that cross: each has corners on both sides of the other's plane,
 // and they have more than a point in common. Triangles that only touch, overlap in a plane or share
-// an edge do not cross.
+// an edge do not cross, up to rounding: parts that touch in a turned pose may.
 // Cost:   follows the triangles and the pairs with overlapping boxes.
 // Errors: CANCELLED, DEADLINE_EXCEEDED.
 absl::StatusOr<CrossingCount> CountCrossings(const Surface& surface, const exec::Context& context);

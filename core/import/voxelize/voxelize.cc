@@ -188,15 +188,18 @@ class Voxelizer {
   absl::Status CompareTopology(VoxelizeResult& result) {
     const SolidTopology found = AsSolid(*result.topology);
     if (surface_.report.closure == SurfaceClosure::kOpen) {
-      return WarnOfUnknownTopology("an open mesh", found, result.volume);
+      WarnOfUnknownTopology("an open mesh", found, result.volume);
+      return absl::OkStatus();
     }
     const std::optional<SolidTopology> mesh = ExpectedTopology(surface_.report, result.fill);
     if (mesh == found) return absl::OkStatus();
     if (mesh) BCCSKEL_RETURN_IF_ERROR(Repair(*mesh, result));
     if (mesh == AsSolid(*result.topology)) return absl::OkStatus();
     BCCSKEL_ASSIGN_OR_RETURN(const CrossingCount crossings, CountCrossings(surface_, context_));
-    if (!mesh && crossings.total() == 0) return absl::OkStatus();
-    if (!mesh) return WarnOfUnknownTopology("a mesh that crosses itself", found, result.volume);
+    if (!mesh) {
+      if (crossings.total() > 0) WarnOfUnknownTopology("a crossing mesh", found, result.volume);
+      return absl::OkStatus();
+    }
     const bool is_union = crossings.within_parts == 0 && crossings.between_parts > 0 &&
                           result.fill == FillRule::kWinding;
     misses_topology_ = !is_union;
@@ -209,13 +212,11 @@ class Voxelizer {
     return absl::OkStatus();
   }
 
-  absl::Status WarnOfUnknownTopology(const char* of, const SolidTopology& found,
-                                     const Volume& volume) {
+  void WarnOfUnknownTopology(const char* of, const SolidTopology& found, const Volume& volume) {
     warnings_.push_back("the volume has " + InWords(found) + "; the topology of " + of +
                         " is not known: check these numbers" +
                         (found.components > 1 ? " (--join-gaps X joins components)" : "") +
                         TunnelsInWords(found.loops, volume));
-    return absl::OkStatus();
   }
 
   // Seams between parts that touch or cross, such as cushions, make rows of tunnels.

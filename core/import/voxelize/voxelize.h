@@ -66,9 +66,9 @@ struct VoxelizeResult {
 // Cost:    time and memory follow the surface in rows and the solid in bricks, not the box.
 // Errors:  INVALID_ARGUMENT (options, nothing enclosed, cells that LargeCells refuses, sizes a
 //          double cannot hold, kParity for an open mesh, kWinding for a closed one of inconsistent
-//          orientation), FAILED_PRECONDITION (kAuto for an open mesh with large defects),
-//          RESOURCE_EXHAUSTED (more than kMaxExtentCells cells along an axis, more points than
-//          max_points), CANCELLED, DEADLINE_EXCEEDED.
+//          orientation), FAILED_PRECONDITION (kAuto for an open mesh with defects above FillRule's
+//          limits), RESOURCE_EXHAUSTED (more than kMaxExtentCells cells along an axis, more points
+//          than max_points), CANCELLED, DEADLINE_EXCEEDED.
 // Threads: same bits for any number of threads.
 absl::StatusOr<VoxelizeResult> Voxelize(const TriangleMesh& mesh, const VoxelizeOptions& options,
                                         const exec::Context& context);

@@ -280,9 +280,11 @@ const Wrong kWrong[] = {
     {"neither_object_nor_output", "reconstruct a.json",
      "--object and --output are required\nbccskel: hint: --object names the mesh"},
     {"range_of_labels", "labels a.tif -o a.vtp --range 1,2",
-     "labels has no option --range\nbccskel: hint: labels takes each value for an object, or those "
-     "of --label; skeletonize takes the voxels of a range or threshold for one object\n"},
-    {"threshold_of_labels", "labels a.tif -o a.vtp --threshold=5", "hint: labels takes each value"},
+     "labels has no option --range\nbccskel: hint: labels makes an object of each value, or of "
+     "those "
+     "of --label; skeletonize makes one object of a range or threshold\n"},
+    {"threshold_of_labels", "labels a.tif -o a.vtp --threshold=5",
+     "hint: labels makes an object of each"},
     {"unknown_bench", "bench core --shape sofa", "--shape sofa: must be ball"},
     {"unknown_shape", "generate teapot -o a.exr", "hollow-ball"},
 };

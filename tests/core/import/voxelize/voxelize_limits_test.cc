@@ -85,9 +85,9 @@ TEST(VoxelizeWarnings, AdviseNoSpacingWhereSignedVolumesCancel) {
     mesh.triangles.push_back({z, z + 1, z + 5});
     mesh.triangles.push_back({z + 1, z + 4, z + 5});
   }
-  for (const std::string& warning : Voxelized(mesh, {.points = 20000}).warnings) {
-    EXPECT_THAT(warning, Not(HasSubstr("--spacing")));
-  }
+  const std::vector<std::string> warnings = Voxelized(mesh, {.points = 20000}).warnings;
+  ASSERT_THAT(warnings, Not(IsEmpty()));
+  for (const std::string& warning : warnings) EXPECT_THAT(warning, Not(HasSubstr("--spacing")));
 }
 
 // Two tetrahedra with a common edge, one of which a third one crosses.
@@ -103,7 +103,7 @@ TEST(VoxelizeWarnings, TellThatTheTopologyIsNotKnownWhereANonManifoldMeshCrosses
   EXPECT_THAT(Voxelized(mesh, {.points = 5000}).warnings, IsEmpty());
   add(6, 7, 8, 9);
   EXPECT_THAT(Voxelized(mesh, {.points = 5000}).warnings,
-              Contains(HasSubstr("; the topology of a mesh that crosses itself is not known")));
+              Contains(HasSubstr("; the topology of a crossing mesh is not known")));
 }
 
 TEST(VoxelizePoints, AreMetWhereEveryFacetIsThereFromBothSides) {
