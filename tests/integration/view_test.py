@@ -109,11 +109,11 @@ class ViewTest(PageTestCase):
         numpy.save(self.path("line.npy"), line)
         harness.bccskel("skeletonize", self.path("line.npy"), "--local", "--sampling", "trilinear",
                         "--density", "0.5", "-o", self.path("s.html"))  # warns, too
-        self.assertRegex(self.open().text("#verdict"), "^kept by thinning; sampling changed components 11 \u2192 ")
+        self.assertRegex(self.open().text("#verdict"), "^topology kept by thinning; sampling changed components 11 \u2192 ")
         harness.bccskel("skeletonize", self.path("line.npy"), "--local", "--min-component", "100",
                         "-o", self.path("s.html"))  # which is not sampling
         self.assertEqual(self.open().text("#verdict"),
-                         "kept by thinning; preparing changed components 11 \u2192 0")
+                         "topology kept by thinning; preparing changed components 11 \u2192 0")
 
     def test_curves_lead_from_node_to_node(self):
         self.page("tree")

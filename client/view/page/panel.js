@@ -85,7 +85,7 @@ function showCertificate() {
   const made = [...bySampling, ...changes("preparing", given, input), ...maybe].join("; ");
   element("verdict").className = kept && bySampling.length === 0 ? "" : "bad";
   element("verdict").textContent = !kept ? "\u2717 TOPOLOGY NOT KEPT"
-    : made ? `kept by thinning; ${made}` : "\u2713 topology kept";
+    : made ? `topology kept by thinning; ${made}` : "\u2713 topology kept";
   const digest = String(result.sha256 ?? "");
   element("digest").textContent = digest && `sha256 ${digest.slice(0, 12)}\u2026`;
   element("digest").title = digest;
