@@ -78,8 +78,9 @@ std::string WarningOf(const GrayLevels& levels) {
   return warning;
 }
 
-std::vector<std::string> WarningsOf(const ImageInfo& info, const GrayLevels& levels,
-                                    uint64_t object, uint64_t not_numbers) {
+std::vector<std::string> WarningsOf(const ImageInfo& info, const ImageArguments& arguments,
+                                    const GrayLevels& levels, uint64_t object,
+                                    uint64_t not_numbers) {
   std::vector<std::string> warnings;
   const std::string gray = WarningOf(levels);
   if (!gray.empty()) {
@@ -89,11 +90,13 @@ std::vector<std::string> WarningsOf(const ImageInfo& info, const GrayLevels& lev
         "several labels are taken for one object; --label selects some, and the command labels "
         "takes each by itself");
   } else if (object == info.size.Voxels()) {
-    warnings.emplace_back(levels.HasOneValue()
-                              ? "the object fills the whole image, whose voxels seem to have one "
-                                "value: check the image"
-                              : "the object fills the whole image; --threshold or --below selects "
-                                "a part of it");
+    // A threshold excludes labels, and does not help an inverted object.
+    const bool by_value = arguments.labels.empty() && !arguments.invert;
+    warnings.push_back(std::string("the object fills the whole image") +
+                       (levels.HasOneValue()
+                            ? ", whose voxels seem to have one value: check the image"
+                        : by_value ? "; --threshold or --below selects a part of it"
+                                   : ""));
   }
   if (not_numbers > 0 && not_numbers < info.size.Voxels()) {
     warnings.push_back(NanWarning(not_numbers));
@@ -133,7 +136,7 @@ absl::StatusOr<ImageObject> ConvertImage(ImageSource& source, const ImageArgumen
   BCCSKEL_ASSIGN_OR_RETURN(ConvertedMask mask, std::move(converter).Finish());
   ImageObject object = {std::move(mask.volume),
                         {source.info(), mask.voxels, mask.mask,
-                         WarningsOf(source.info(), levels, mask.voxels, not_numbers)}};
+                         WarningsOf(source.info(), arguments, levels, mask.voxels, not_numbers)}};
   if (kept == KeptVoxels::kAll) {
     BCCSKEL_ASSIGN_OR_RETURN(object.voxels, std::move(collector).Finish());
   }

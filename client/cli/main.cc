@@ -61,7 +61,8 @@ void PutHeapOnHugePages() {
   bccskel::exec::PreferHugePages(const_cast<char*>(end) - kRoom, kRoom);
 }
 
-// gRPC logs each attempt to connect; our message says how the last one ended.
+// gRPC logs each attempt to connect; our message says how the last one ended. By the environment,
+// because a call would load gRPC's library.
 void SilenceGrpc() { setenv("GRPC_VERBOSITY", "NONE", /*replace=*/0); }
 
 ExitCode Main(int argc, char** argv) {

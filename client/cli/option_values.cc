@@ -206,8 +206,15 @@ bool IsChoice(const std::string& flag, const std::string& word) {
   return std::ranges::any_of(kSets, [&](OptionSet set) { return WithApp(set, takes); });
 }
 
-// Numbers, placeholders such as X, and texts in quotes.
+// A range of labels, such as 1-85.
+bool IsRange(const std::string& word) {
+  return word.find_first_not_of("0123456789-") == word.npos && word.find('-', 1) != word.npos;
+}
+
+// What stays as it is in Python: numbers and lists of them, a placeholder such as X, or a name that
+// is quoted already.
 bool IsPlainValue(const std::string& word) {
+  if (IsRange(word)) return false;
   return word.find_first_not_of("0123456789.,e+-") == word.npos ||
          std::ranges::all_of(word, absl::ascii_isupper) || word.front() == '\'';
 }
@@ -219,7 +226,7 @@ std::string ValueBehind(const std::string& flag, std::string_view message) {
   while (!word.empty() && std::string_view(",.;:)").find(word.back()) != std::string_view::npos) {
     word.pop_back();
   }
-  return !word.empty() && (IsPlainValue(word) || IsChoice(flag, word)) ? word : "";
+  return !word.empty() && (IsPlainValue(word) || IsRange(word) || IsChoice(flag, word)) ? word : "";
 }
 
 std::string Quoted(const std::string& value) {

@@ -35,8 +35,7 @@ void AddHeader(Text& text, const GraphContext& context) {
            "coord_src_x,coord_src_y,coord_src_z,coord_dst_x,coord_dst_y,coord_dst_z,",
            "pruning_level");
   if (context.order.has_value()) text.Add(",generation,strahler");
-  text.Add(",world,unit");
-  text.Add('\n');
+  text.Add(",world,unit\n");
 }
 
 void AddOrder(Text& text, const EdgeOrder& order) {

@@ -221,6 +221,7 @@ class ImagesTest(harness.TestCase):
                                  ([warning], ["the object has no points"]))
         for name, rule, advice in (
                 ("full", (), ", whose voxels seem to have one value: check the image"),
+                ("full", ("--label", 1), ""),
                 ("a", ("--threshold", 0), "; --threshold or --below selects a part of it")):
             warning, = self.skeletonize(self.path(name + ".npy"), *rule)["image"]["warnings"]
             self.assertEqual(warning, "the object fills the whole image" + advice)

@@ -18,6 +18,7 @@ TEST(OptionValuesTest, MessagesNameOptionsAndTheirValuesAsPythonDoes) {
       {"or try --denoise 1, which", "or try denoise=1, which"},
       {"only skeletonize --range 0,0 selects", "only skeletonize() with range=(0, 0) selects"},
       {"(--join-gaps X joins components)", "(join_gaps=X joins components)"},
+      {"--label 5-2: the first", "label=\"5-2\": the first"},
       {"--array 'a' is not there", "array='a' is not there"},
       {"--threshold 12.5 (Otsu's)", "threshold=12.5 (Otsu's)"},
       {"the command labels takes each", "skeletonize_labels() takes each"},
