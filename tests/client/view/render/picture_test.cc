@@ -116,6 +116,26 @@ TEST(PictureTest, NoWordIsCutOff) {
   }
 }
 
+TEST(PictureTest, LongWordsTakeAThirdLineInsteadOfASmallerFont) {
+  const exporting::Sample sample = exporting::SampleOf(Shape::kTorus);
+  const auto surface = *MakeDisplaySurface(sample.object, 10000, {});
+  PictureOptions options = Small();
+  options.width = options.height = 400;
+  // In the left corner, where the third line begins and no object is.
+  const auto pixels_of_third_line = [&](const ResultDocument& result) {
+    const Pixels picture = Decoded(*RenderPng(result, surface, options, {}));
+    int count = 0;
+    for (int y = 68; y < 76; ++y) {
+      for (int x = 17; x < 60; ++x) count += picture.At(x, y) == picture.At(1, 1) ? 0 : 1;
+    }
+    return count;
+  };
+  ResultDocument result = *ParseResultDocument(exporting::JsonText(sample.result));
+  EXPECT_EQ(pixels_of_third_line(result), 0);
+  result.certificate.unprepared = {12, 34, 56};
+  EXPECT_GT(pixels_of_third_line(result), 50);
+}
+
 TEST(PictureTest, TheLegendHasEveryColorOfNodes) {
   const exporting::Sample sample = exporting::SampleOf(Shape::kTorus);
   const auto surface = *MakeDisplaySurface(sample.object, 10000, {});
