@@ -52,7 +52,6 @@ std::vector<Spot> SpotsOf(const ResultDocument& result, const Placement& placeme
     if (p.has_value()) spots.push_back({*p, balls[n].radius, labels[n]});
   }
   std::ranges::sort(spots, {}, &Spot::point);
-  // std::ranges::unique does not compile with clang 14 and this standard library.
   const auto same = [](const Spot& a, const Spot& b) { return a.point == b.point; };
   spots.erase(std::unique(spots.begin(), spots.end(), same), spots.end());
   return spots;

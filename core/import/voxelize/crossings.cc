@@ -160,7 +160,7 @@ class Crossings {
     const bool is_above = above == 1;
     size_t first = 0;
     while (is_above ? !(sides[first] > 0) : !(sides[first] < 0)) ++first;
-    std::ranges::rotate(triangle, triangle.begin() + static_cast<ptrdiff_t>(first));
+    std::rotate(triangle.begin(), triangle.begin() + static_cast<ptrdiff_t>(first), triangle.end());
     if (!is_above) std::swap(other[1], other[2]);
     return true;
   }
