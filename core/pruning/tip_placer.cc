@@ -234,10 +234,14 @@ void TipPlacer::CutBumps() {
 
 size_t TipPlacer::FirstCut(double radii) {
   size_t first = path_.size() - 1;
-  for (size_t n = first; n > 0 && path_[n] != root_; --n) {
+  for (size_t n = first; n > 0 && path_[n] != root_ && !IsInJunction(path_[n - 1]); --n) {
     if (IsInCapOf(path_[n - 1], radii)) first = n - 1;
   }
   return last_limb_.BeginIn(set_, path_, first);
+}
+
+bool TipPlacer::IsInJunction(LatticePoint p) const {
+  return junction_.has_value() && set_.Between(*junction_, p) < set_.RadiusOf(*junction_);
 }
 
 bool TipPlacer::IsInCapOf(LatticePoint p, double radii) {

@@ -83,6 +83,8 @@ class TipPlacer {
   // around the new tip, and the new tip must lie in the limb, not in a body behind a short limb or
   // in a bead, whose distances are larger.
   size_t FirstCut(double radii);
+  // Whether p lies in the ball of the junction.
+  bool IsInJunction(LatticePoint p) const;
   // The depth is at least the radius, so testing the radius is usually enough.
   bool IsInCapOf(LatticePoint p, double radii);
   // Position in the path, at least `n`, of a point from which the way ahead is known.
