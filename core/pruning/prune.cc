@@ -11,6 +11,7 @@
 #include "core/exec/stop_poll.h"
 #include "core/pruning/branch_pruner.h"
 #include "core/pruning/grow_body_ends.h"
+#include "core/pruning/grow_missed_limbs.h"
 #include "core/pruning/simple_points.h"
 #include "core/pruning/surface_noise.h"
 #include "core/pruning/thin_set.h"
@@ -176,6 +177,7 @@ absl::StatusOr<ThinSkeleton> Prune(const ThinSkeleton& curves, const PrunedObjec
       if (depths.has_value()) {
         const double least = std::max(threshold, kDefaultSignificance);
         GrowBodyEnds(set, in, *depths, significance, least, context);
+        GrowMissedLimbs(set, in, *depths, noise, significance, least, context);
       }
     }
     if (absl::Status stop = context.StopStatus(); !stop.ok()) return stop;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/distance/places.h"
+#include "core/pruning/tip_extender.h"
 
 namespace bccskel {
 namespace {
