@@ -95,15 +95,15 @@ class NearbyBricks {
   explicit NearbyBricks(const Volume& object)
       : object_(object),
         window_(object.window()),
-        bits_(BitsFor(object)),
-        found_(size_t{1} << bits_.All(), Found{BrickKey(), none()}) {}
+        slots_(BitsFor(object)),
+        found_(slots_.count, Found{BrickKey(), none()}) {}
 
   BrickIndex none() const { return static_cast<BrickIndex>(object_.brick_count()); }
 
   // The index of the brick; none(), the padding brick, if it is not stored.
   ABSL_ATTRIBUTE_ALWAYS_INLINE BrickIndex Find(const BrickCoordinates& brick) {
-    Found& found = found_[PlaceFor(brick)];
     const BrickKey key(brick);
+    Found& found = found_[slots_.Of(key)];
     if (found.key != key) {
       found = {key, object_.Find(key).value_or(none())};
     }
@@ -153,16 +153,24 @@ class NearbyBricks {
     return bits;
   }
 
-  size_t PlaceFor(const BrickCoordinates& brick) const {
-    const auto low = [](int32_t v, int bits) { return v & ((1 << bits) - 1); };
-    const int zs = low(brick.bz, bits_.z) | static_cast<int>(brick.sublattice) << bits_.z;
-    const int yzs = low(brick.by, bits_.y) | zs << bits_.y;
-    return static_cast<size_t>(low(brick.bx, bits_.x) | yzs << bits_.x);
-  }
+  // Gathers those bits of a key by a product, which shifts x and y up to z; others drop out.
+  struct Slots {
+    explicit Slots(const Bits& bits)
+        : count(size_t{1} << bits.All()),
+          low(BrickKey({(1 << bits.x) - 2, (1 << bits.y) - 2, (1 << bits.z) - 2, Sublattice::kOdd})
+                  .value()),
+          factor(1 | uint64_t{1} << (BrickKey::kAtZ - BrickKey::kAtY + bits.z) |
+                 uint64_t{1} << (BrickKey::kAtZ + bits.z + bits.y)) {}
+
+    size_t Of(BrickKey key) const { return ((key.value() & low) * factor) >> BrickKey::kAtZ; }
+
+    size_t count;
+    uint64_t low, factor;
+  };
 
   const Volume& object_;
   const std::optional<LatticeBox> window_;
-  const Bits bits_;
+  const Slots slots_;
   std::vector<Found> found_;
 };
 

@@ -82,15 +82,17 @@ struct BrickCoordinates {
 // sublattice.
 class BrickKey {
  public:
+  static constexpr int kAtY = 22, kAtZ = 43;  // the lowest bits of by and bz
+
   constexpr BrickKey() = default;
   constexpr explicit BrickKey(BrickCoordinates c)
-      : value_(Field(c.bz) << 43 | Field(c.by) << 22 | Field(c.bx) << 1 |
+      : value_(Field(c.bz) << kAtZ | Field(c.by) << kAtY | Field(c.bx) << 1 |
                static_cast<uint64_t>(c.sublattice)) {}
 
   constexpr uint64_t value() const { return value_; }
   constexpr Sublattice sublattice() const { return static_cast<Sublattice>(value_ & 1); }
   constexpr BrickCoordinates coordinates() const {
-    return {Unfield(value_ >> 1), Unfield(value_ >> 22), Unfield(value_ >> 43), sublattice()};
+    return {Unfield(value_ >> 1), Unfield(value_ >> kAtY), Unfield(value_ >> kAtZ), sublattice()};
   }
   friend constexpr auto operator<=>(const BrickKey&, const BrickKey&) = default;
 
