@@ -167,17 +167,17 @@ bool CrossSections::GoOnInWall(Front& front, double out, double radius) {
 double CrossSections::WayOut(const Coordinates& from, const Coordinates& way, double start,
                              double reach) {
   double out = start;
-  PointsAlong ahead;
-  size_t passed = PointsAlong::kCount;  // of those ahead
   while (out < reach) {
-    if (passed + 2 > PointsAlong::kCount) {
-      ahead = FindPointsAlong(from, way, out + 1, 1, scale_);
-      passed = 0;
+    const PointsAlong ahead = FindPointsAlong(from, way, out + 1, 1, scale_);
+    for (size_t n = 0; n + 2 <= PointsAlong::kCount && out < reach;) {
+      if (bricks_.Contains(ahead[n])) {
+        n += 1, out += 1;
+      } else if (bricks_.Contains(ahead[n + 1])) {
+        n += 2, out += 2;
+      } else {
+        return out;
+      }
     }
-    const size_t steps = bricks_.Contains(ahead[passed]) ? 1 : 2;
-    if (steps == 2 && !bricks_.Contains(ahead[passed + 1])) break;
-    passed += steps;
-    out += static_cast<double>(steps);
   }
   return out;
 }
