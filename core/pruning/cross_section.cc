@@ -69,11 +69,16 @@ double CrossSections::WiderAcross(const Coordinates& middle, const Coordinates& 
   return section.WiderThanThick();
 }
 
-void CrossSections::Refine(double reach, CrossSection& section) {
-  const bool wide = section.half_width > kRoundness * section.radius + kRoundMargin;
+bool CrossSections::Refine(double reach, CrossSection& section) {
+  const double before = section.half_width;
+  const bool wide = before > kRoundness * section.radius + kRoundMargin;
   if (wide) TurnFinely(reach, section);
-  if (wide && IsWall(section)) return FollowWall(reach, section);
-  section.inscribed = section.radius;
+  if (wide && IsWall(section)) {
+    FollowWall(reach, section);
+  } else {
+    section.inscribed = section.radius;
+  }
+  return section.half_width > before;
 }
 
 double CrossSections::Inscribed(CrossSection& section) {

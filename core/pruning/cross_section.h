@@ -75,8 +75,9 @@ class CrossSections {
   CrossSection Across(const Coordinates& middle, const Coordinates& way, double radius,
                       double reach);
   // Refines the width of a section that is wider than round, by up to ten more lines beside the
-  // widest. In walls, the widest line follows the wall. Never makes a section narrower.
-  void Refine(double reach, CrossSection& section);
+  // widest. In walls, the widest line follows the wall. Returns whether the section became wider;
+  // it never becomes narrower.
+  bool Refine(double reach, CrossSection& section);
   // The narrower side of the line, of eight, of which that side is longest: a limb beside a trunk
   // is as wide as the limb on the other side. At most `reach`, which is at least `radius`.
   double NarrowerSide(const Coordinates& middle, const Coordinates& way, double radius,

@@ -269,15 +269,15 @@ double Significance::ValueOf(const ThinSet& set, const BranchPath& path, const R
   const double width_near_tip = sections[kNearTip].radius + sections[kNearTip].WiderThanThick();
   std::vector<Part> parts = PartsOf(set, path, run);
   const size_t first_own = FirstOwnPlace(set, path, run);
-  const double most = Bound(parts, sections, first_own);
+  double most = Bound(parts, sections, first_own);
   const double rough = RoughValueOf(parts, sections, width_near_tip);
   if (rough < kLeastFine || most <= least) return rough;
+  bool wider = false;  // since the last bound
   for (size_t place = kPlaces; place-- > 0;) {
-    sections_.Refine(reach, sections[place]);
+    wider = sections_.Refine(reach, sections[place]) || wider;
     if (place > kPlaces / 2) continue;  // most medians hardly change before
-    if (Bound(parts, sections, first_own) <= std::max(least, kLeastFine)) {
-      return RoughValueOf(parts, sections, width_near_tip);
-    }
+    if (std::exchange(wider, false)) most = Bound(parts, sections, first_own);
+    if (most <= std::max(least, kLeastFine)) return RoughValueOf(parts, sections, width_near_tip);
   }
   std::ranges::sort(parts, std::greater<>(), &Part::bound);
   double value = least;
