@@ -92,13 +92,14 @@ double Significance::Of(const ThinSet& set, const FreeBranch& branch) {
   return std::max(value, OfBodyEnd(set, branch, BodyAt::kJunction, value));
 }
 
-double Significance::BesideTrunk(const ThinSet& set, const BranchPath& path, const Run& run) {
+double Significance::BesideTrunk(const ThinSet& set, const BranchPath& path, const Run& run,
+                                 double least) {
   const Coordinates along = set.Way(path.points[run.from], path.points[run.to]);
   const double root = path.radii[run.from], rough = std::min(kRoughShare * noise_.roughness, 1.0);
   const double simple =
       run.elongation - noise_.Stretch(along) * noise_.At(root) - SurfaceNoise::kMargin;
   const double out = (1 - rough) * noise_.Beyond(run.elongation, root, along) + rough * simple;
-  if (out < kLeastRatio * root) return 0;
+  if (out < std::max(least, kLeastRatio) * root) return 0;
   const auto wider = WidthBesideTrunk(set, path, run, sections_);
   return wider.has_value() ? out / (root + kWidthShare * *wider) : 0;
 }
@@ -211,7 +212,7 @@ Significance::Verdict Significance::Look(const ThinSet& set, const FreeBranch& b
   best.value = largest.ratio;
   if (largest.ratio < kLeastRatio) return best;
   best.value = ValueOf(set, path, largest);
-  if (best.value < kSureRatio) best.beside_trunk = BesideTrunk(set, path, largest);
+  if (best.value < kSureRatio) best.beside_trunk = BesideTrunk(set, path, largest, best.value);
   size_t first = PlaceIn(largest, kPlaces / 2);
   while (first + kPlaces <= path.points.size()) {
     const Run run = LargestRun(set, path, noise_, first);

@@ -121,8 +121,8 @@ class Significance {
   bool LeadsBesideCut(const ThinSet& set, const FreeBranch& branch) const;
   Verdict Look(const ThinSet& set, const FreeBranch& branch);
   // The value of a limb that leaves a trunk, by its width beside the trunk; 0 if it does not stick
-  // out.
-  double BesideTrunk(const ThinSet& set, const BranchPath& path, const Run& run);
+  // out, or too little to be worth more than `least`.
+  double BesideTrunk(const ThinSet& set, const BranchPath& path, const Run& run, double least);
   // Replaces the best run by this one if its value is larger.
   void Consider(const ThinSet& set, const BranchPath& path, const Run& run, Verdict& best);
   // Null if the end has no cached result or its branch has changed.
