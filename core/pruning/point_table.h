@@ -36,11 +36,13 @@ class PointTable {
   }
   Value* Find(LatticePoint p) { return const_cast<Value*>(std::as_const(*this).Find(p)); }
 
-  void Set(LatticePoint p, Value value) {
+  // Returns the value in the table, which moves when others are set or removed.
+  Value& Set(LatticePoint p, Value value) {
     if (2 * (size_ + 1) > slots_.size()) Rehash(2 * slots_.size());
     Slot& slot = slots_[PlaceOf(p)];
     size_ += slot.point == p ? 0 : 1;
     slot = {p, value};
+    return slot.value;
   }
 
   // Needs: the point is in the table. Moves later entries of the probe sequence up to fill the gap.

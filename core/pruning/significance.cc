@@ -69,11 +69,8 @@ Significance::Significance(const Volume& object, const SurfaceNoise& noise,
 
 double Significance::Of(const ThinSet& set, const FreeBranch& branch) {
   if (LeadsBesideCut(set, branch)) return kNone;
-  const Verdict* last = Known(branch);
-  if (last == nullptr) {
-    verdicts_.Set(branch.points[0], Look(set, branch));
-    last = verdicts_.Find(branch.points[0]);
-  }
+  Verdict* last = Known(branch);
+  if (last == nullptr) last = &verdicts_.Set(branch.points[0], Look(set, branch));
   double value = last->value, beside_trunk = last->beside_trunk;
   if (std::max(value, beside_trunk) >= kLeastRatio) {
     const double uncovered = UncoveredShare(set, branch, last->run);
@@ -87,7 +84,9 @@ double Significance::Of(const ThinSet& set, const FreeBranch& branch) {
       LeadsIntoCornerOfStrip(set, branch, sections_)) {
     return kLeastCorner;
   }
-  if (value >= kLeastCorner && LeadsIntoCollar(set, branch, sections_)) return kLeastRatio;
+  auto& known = last->into_collar;
+  if (value >= kLeastCorner && !known.has_value()) known = LeadsIntoCollar(set, branch, sections_);
+  if (value >= kLeastCorner && *known) return kLeastRatio;
   if (value >= kSureRatio || !MayHaveBodyEnds(set.RadiusOf(*branch.junction))) return value;
   return std::max(value, OfBodyEnd(set, branch, BodyAt::kJunction, value));
 }
@@ -195,8 +194,8 @@ std::vector<double> Significance::OfAll(const ThinSet& set, std::span<const Free
   return values;
 }
 
-const Significance::Verdict* Significance::Known(const FreeBranch& branch) const {
-  const Verdict* last = verdicts_.Find(branch.points[0]);
+Significance::Verdict* Significance::Known(const FreeBranch& branch) {
+  Verdict* last = verdicts_.Find(branch.points[0]);
   if (last == nullptr || last->junction != *branch.junction) return nullptr;
   return last->points == branch.points.size() ? last : nullptr;
 }

@@ -102,8 +102,9 @@ class Significance {
     LatticePoint junction;
     size_t points = 0;
     Run run;
-    double value = 0;         // without the factor `uncovered`
-    double beside_trunk = 0;  // the same if the other branches are round
+    double value = 0;                                // without the factor `uncovered`
+    double beside_trunk = 0;                         // the same if the other branches are round
+    std::optional<bool> into_collar = std::nullopt;  // LeadsIntoCollar(), once asked
   };
 
   using Sections = std::array<CrossSection, kPlaces>;
@@ -126,7 +127,7 @@ class Significance {
   // Replaces the best run by this one if its value is larger.
   void Consider(const ThinSet& set, const BranchPath& path, const Run& run, Verdict& best);
   // Null if the end has no cached result or its branch has changed.
-  const Verdict* Known(const FreeBranch& branch) const;
+  Verdict* Known(const FreeBranch& branch);
   Run RunOf(const ThinSet& set, BranchPath& path);
   void LookPastPits(BranchPath& path);
   // The value of a run without the factor `uncovered`; not exact if it is at most `least`, and
