@@ -30,6 +30,21 @@ std::optional<Coordinates> WayOfLimb(const ThinSet& set, const Arm& limb, Lattic
   return std::nullopt;
 }
 
+// The arm as a tip that turns away from the limb, without its worth; none if it does not.
+std::optional<TurnedTips::Tip> TipAside(const ThinSet& set, const Arm& aside, const Arm& limb) {
+  const std::optional<Coordinates> in = WayOfLimb(set, limb, aside.fork);
+  if (!in.has_value()) return std::nullopt;
+  const Coordinates out = set.Way(aside.fork, aside.points.back());
+  const double length = LengthOf(out), radius = set.RadiusOf(aside.fork);
+  const double cosine = Dot(*in, out) / (LengthOf(*in) * length);
+  if (cosine >= kStraightOn) return std::nullopt;
+  TurnedTips::Tip tip = {{aside.points.rbegin(), aside.points.rend()}};
+  tip.in_cap = cosine > 0 && length <= kLongest * radius;
+  tip.is_rib = cosine > kBack && length > kShortest * radius &&
+               set.Between(aside.fork, limb.points.back()) >= length;
+  return tip.in_cap || tip.is_rib ? std::optional(std::move(tip)) : std::nullopt;
+}
+
 // The half-width across a direction, in radii.
 double WidthAt(LatticePoint p, const Coordinates& way, const ThinSet& set,
                CrossSections& sections) {
@@ -47,25 +62,22 @@ void TurnedTips::Note(const ThinSet& set, const FreeBranch& going,
   if (arms.size() != 3) return;
   std::erase_if(arms, [&](const Arm& arm) { return arm.points.back() == going.points[0]; });
   if (arms.size() != 2 || (!arms[0].is_free && !arms[1].is_free)) return;
+  std::array<std::optional<Tip>, 2> tips;
+  for (size_t n = 0; n < 2; ++n) {
+    if (arms[n].is_free) tips[n] = TipAside(set, arms[n], arms[1 - n]);
+  }
+  // Worths take longer.
+  if (!tips[0].has_value() && !tips[1].has_value()) return;
   std::array<double, 2> worths = {};  // of those that are free
   for (size_t n = 0; n < 2; ++n) {
     const Arm& arm = arms[n];
     if (arm.is_free) worths[n] = worth_of({{arm.points.rbegin(), arm.points.rend()}, arm.fork});
   }
   const size_t less = !arms[0].is_free || (arms[1].is_free && worths[1] < worths[0]) ? 1 : 0;
-  const Arm &aside = arms[less], &limb = arms[1 - less];
-  if (limb.is_free && worths[1 - less] < kLimbWorth * worths[less]) return;
-  const std::optional<Coordinates> in = WayOfLimb(set, limb, aside.fork);
-  if (!in.has_value()) return;
-  const Coordinates out = set.Way(aside.fork, aside.points.back());
-  const double length = LengthOf(out), radius = set.RadiusOf(aside.fork);
-  const double cosine = Dot(*in, out) / (LengthOf(*in) * length);
-  if (cosine >= kStraightOn) return;
-  Tip tip = {{aside.points.rbegin(), aside.points.rend()}, worths[less]};
-  tip.in_cap = cosine > 0 && length <= kLongest * radius;
-  tip.is_rib = cosine > kBack && length > kShortest * radius &&
-               set.Between(aside.fork, limb.points.back()) >= length;
-  tips_[aside.points.back()].push_back(std::move(tip));
+  if (!tips[less].has_value()) return;
+  if (arms[1 - less].is_free && worths[1 - less] < kLimbWorth * worths[less]) return;
+  tips[less]->worth = worths[less];
+  tips_[arms[less].points.back()].push_back(*std::move(tips[less]));
 }
 
 void TurnedTips::DropFrom(double threshold) {
