@@ -206,6 +206,10 @@ std::vector<Place> JunctionsOf(const ThinSet& set, const Significance& significa
 // about as thick as the body. The curve leads away from the body.
 void AddTurnsOf(std::span<const LatticePoint> curve, const ThinSet& set,
                 const Significance& significance, std::vector<Place>& turns) {
+  const auto may_turn = [&](LatticePoint p) {
+    return significance.MayHaveBodyEnds(set.RadiusOf(p), kLeastTurning);
+  };
+  if (std::ranges::none_of(curve, may_turn)) return;
   const LatticePoint end = curve.back();
   const auto limb = set.IsEnd(end) ? std::optional(end) : std::nullopt;
   const auto exit_at = [&](size_t n, size_t exit) {
@@ -217,7 +221,7 @@ void AddTurnsOf(std::span<const LatticePoint> curve, const ThinSet& set,
     exit = std::max(exit, n + 1);
     while (exit < curve.size() && !exit_at(n, exit)) ++exit;
     if (exit == curve.size()) break;
-    if (!significance.MayHaveBodyEnds(body, kLeastTurning)) continue;
+    if (!may_turn(curve[n])) continue;
     if (set.RadiusOf(curve[exit]) > kThinnerAhead * body) continue;
     size_t last = n;
     while (set.RadiusOf(curve[last + 1]) >= kAboutAsThick * body) ++last;
