@@ -132,6 +132,7 @@ std::vector<BorderTips::Face> BorderTips::FacesNear(LatticePoint p, double reach
       if (OutFrom(place, {axis, side}) <= reach) faces.push_back({axis, side});
     }
   }
+  if (faces.size() < 2) return faces;  // nearly always
   std::ranges::stable_sort(faces, {}, [&](const Face& face) { return OutFrom(place, face); });
   return faces;
 }
@@ -199,9 +200,9 @@ std::optional<BorderTips::Limb> BorderTips::LimbBefore(const Face& face,
   limb.way = Unit(set.Way(path[back], path[from]));
   limb.reach = kMostWide * radius + kWideMargin;
   const auto plane = Across(limb.way);
-  const auto before = SectionAt(PlaceOf(path[back], scale_), plane, limb.reach);
   const auto last = SectionAt(PlaceOf(path[from], scale_), plane, limb.reach);
   if (!last.has_value()) return std::nullopt;
+  const auto before = SectionAt(PlaceOf(path[back], scale_), plane, limb.reach);
   limb.last = *last;
   limb.start = last->middle;
   if (before.has_value()) {
