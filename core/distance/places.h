@@ -65,6 +65,12 @@ inline double StraightDistance(LatticePoint a, LatticePoint b, const AxisScale& 
 // mode.
 inline int32_t Rounded(double v) { return static_cast<int32_t>(v + 1024.5) - 1024; }
 
+// The integer below. Avoids the library call.
+inline int32_t FloorOf(double v) {
+  const auto toward_zero = static_cast<int32_t>(v);
+  return v < toward_zero ? toward_zero - 1 : toward_zero;
+}
+
 // A lattice point next to the position, the nearest one if spacings are equal. It may lie outside
 // the extent. Needs: no coordinate below -2000.
 inline LatticePoint PointNear(const Coordinates& place, const AxisScale& scale) {

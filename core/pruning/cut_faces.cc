@@ -188,11 +188,11 @@ class Face {
   // Visits the points of bricks in the layer of the middles of the face's voxels.
   template <typename Visit>
   void ForEachBrickOn(const Volume& object, Visit visit) const {
+    constexpr std::array<int32_t, 3> kLengths = {kBrickX, kBrickY, kBrickZ};
     for (BrickIndex n = 0; n < object.brick_count(); ++n) {
       const BrickCoordinates brick = object.keys()[n].coordinates();
-      const LatticeBox box = BoxOf(brick);
-      const int32_t from = first_ - ArrayOf(box.low)[axis_];
-      if (from < 0 || first_ > ArrayOf(box.high)[axis_] || from % 2 != 0) continue;
+      const int32_t from = first_ - ArrayOf(PointOf(brick, 0))[axis_];
+      if (from < 0 || from >= 2 * kLengths[axis_] || from % 2 != 0) continue;
       visit(brick, object.bricks()[n] & layers_[static_cast<size_t>(from / 2)]);
     }
   }
@@ -238,7 +238,7 @@ class Face {
     return Pixel{static_cast<int32_t>(u >> shift), static_cast<int32_t>(v >> shift)};
   }
 
-  static int32_t Whole(double x) { return static_cast<int32_t>(std::floor(x + 0.5)); }
+  static int32_t Whole(double x) { return FloorOf(x + 0.5); }
   static Pixel NearestTo(const Section& section) { return {Whole(section.u), Whole(section.v)}; }
 
   // The voxel around a place, `deep` layers behind the face; all in voxels.

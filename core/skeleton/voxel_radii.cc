@@ -24,12 +24,6 @@ constexpr double kMostFarther = 1.5;
 constexpr double kOutside = 0.1;
 constexpr double kOutsideSmall = 0.2;
 
-// The whole number below. No call of the library.
-int32_t FloorOf(double v) {
-  const auto toward_zero = static_cast<int32_t>(v);
-  return v < toward_zero ? toward_zero - 1 : toward_zero;
-}
-
 class VoxelRadii {
  public:
   VoxelRadii(const Volume& object, int32_t voxel_units, const ExactRadius& search)
