@@ -50,6 +50,8 @@ class ExactRadius {
   // The distance from p to a background point, with the bits of At().
   float Between(LatticePoint p, LatticePoint background) const;
 
+  // Begins the next search with the distance to this background point, which is likely to be near.
+  void StartFrom(LatticePoint background) { last_.at = background; }
   // Removes q from the background of this copy. Background without object points beside it might
   // not be found either, so q must have enough of them around it (FirmDepth).
   // Needs: this searches.

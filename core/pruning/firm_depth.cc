@@ -24,19 +24,31 @@ float FirmDepth::At(LatticePoint p) {
 }
 
 float FirmDepth::AtMost(LatticePoint p) const {
-  if (const float* known = known_.Find(p); known != nullptr) return *known;
-  float least = std::numeric_limits<float>::infinity();
-  for (LatticePoint q : lately_) {
-    if (q != kOutside) least = std::min(least, radius_.Between(p, q));
-  }
-  return least;
+  const float* known = known_.Find(p);
+  return known != nullptr ? *known : NearestRecent(p).distance;
 }
 
+FirmDepth::Recent FirmDepth::NearestRecent(LatticePoint p) const {
+  Recent nearest = {kOutside, std::numeric_limits<float>::infinity()};
+  for (LatticePoint q : lately_) {
+    if (q == kOutside) continue;
+    const float distance = radius_.Between(p, q);
+    if (distance < nearest.distance) nearest = {q, distance};
+  }
+  return nearest;
+}
+
+// Knowing a point that is no pit, each search visits few bricks.
 float FirmDepth::Search(LatticePoint p) {
-  float depth = radius_.At(p);
+  const Recent recent = NearestRecent(p);
+  const auto search = [&] {
+    if (recent.at != kOutside) radius_.StartFrom(recent.at);
+    return radius_.At(p);
+  };
+  float depth = search();
   while (radius_.has_nearest() && IsPit(radius_.nearest())) {
     radius_.TakeFromBackground(radius_.nearest());
-    depth = radius_.At(p);
+    depth = search();
   }
   if (radius_.has_nearest()) Remember(radius_.nearest());
   return depth;

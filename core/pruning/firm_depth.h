@@ -37,6 +37,14 @@ class FirmDepth {
   float AtMost(LatticePoint p) const;
 
  private:
+  struct Recent {
+    LatticePoint at;
+    float distance;
+  };
+
+  // The nearest to p of the background points found recently; at an infinite distance if there are
+  // none.
+  Recent NearestRecent(LatticePoint p) const;
   float Search(LatticePoint p);
   bool IsPit(LatticePoint q);
   void Remember(LatticePoint background);
