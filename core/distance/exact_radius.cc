@@ -111,6 +111,10 @@ bool ExactRadius::SearchWithin(float reach, LatticePoint p) {
   const auto most = static_cast<int32_t>(kRoundingSlack * reach) + kBrickLength;
   const PointSearch search = SearchFrom(p, most);
   last_.squared = std::min(SquareTo(last_.at, p, most), reach * reach);
+  if (last_.squared <= kFewBricks * kFewBricks && !object_.window().has_value()) {
+    SearchAround(p);
+    return true;
+  }
   const size_t count = FindNearBoxes(border_->groups(), search, last_.squared, near_groups_.data());
   const auto groups = std::span(near_groups_).first(count);
   PutNearestFirst(groups);
@@ -119,6 +123,14 @@ bool ExactRadius::SearchWithin(float reach, LatticePoint p) {
     FindNearestBackground(Places(), border_->boxes(), group.box, Bricks(), search, last_);
   }
   return last_.squared < reach * reach;
+}
+
+// Background is known so near that few bricks may hold nearer points.
+void ExactRadius::SearchAround(LatticePoint p) {
+  const size_t count = FindInBricksAround(p, std::sqrt(last_.squared), false);
+  for (const auto& [nearest, place] : std::span(found_).first(count)) {
+    if (nearest.squared < last_.squared) last_ = nearest;
+  }
 }
 
 LatticePoint ExactRadius::FirstNearestAt(LatticePoint p, float radius) {
@@ -130,7 +142,7 @@ LatticePoint ExactRadius::FirstNearestAt(LatticePoint p, float radius) {
 // No value if the nearest background points are not at this distance.
 std::optional<LatticePoint> ExactRadius::FirstAtDistance(LatticePoint p, float radius) {
   const size_t count =
-      radius > kFewBricks ? FindInGroups(p, radius) : FindInBricksAround(p, radius);
+      radius > kFewBricks ? FindInGroups(p, radius) : FindInBricksAround(p, radius, true);
   const auto order = [](const NearestInPlace& found) {
     const auto& [at, squared] = found.nearest;
     return std::tuple(squared, at.z, at.y, at.x);
@@ -142,12 +154,12 @@ std::optional<LatticePoint> ExactRadius::FirstAtDistance(LatticePoint p, float r
   return is_known ? std::optional(at) : std::nullopt;
 }
 
-// With equal spacings, squared distances are multiples of 4 to points of the same sublattice and no
-// multiples of 4 to points of the other.
-void ExactRadius::FindBricksAround(LatticePoint p, float radius) {
+// Where the radius is exact: with equal spacings, squared distances are multiples of 4 to points of
+// the same sublattice and no multiples of 4 to points of the other.
+void ExactRadius::FindBricksAround(LatticePoint p, float radius, bool is_exact) {
   const float reach = kRoundingSlack * radius, squared = reach * reach;
   const auto most = static_cast<int32_t>(reach);
-  const bool is_known = scale_ == kIsotropic;
+  const bool is_known = is_exact && scale_ == kIsotropic;
   const bool is_same = static_cast<int32_t>(radius * radius + 0.5f) % 4 == 0;
   bricks_around_.clear();
   for (Sublattice sublattice : kSublattices) {
@@ -166,8 +178,12 @@ void ExactRadius::FindBricksAround(LatticePoint p, float radius) {
         for (int32_t bx = cell(p.x - most) >> 4; bx <= cell(p.x + most) >> 4; ++bx) {
           if (zy + to_brick(0, p.x, 2 * kBrickX * bx + odd, kBrickX) > squared) continue;
           const BrickCoordinates at = {bx, by, bz, sublattice};
-          const BrickIndex index = near_bricks_.Find(at);
+          BrickIndex index = near_bricks_.Find(at);
           if (index == near_bricks_.none() && object_.IsPartlyUnknown(at)) continue;
+          if (index == near_bricks_.none() && !added_bricks_.empty()) {
+            const auto added = added_bricks_.find(BrickKey(at).value());
+            if (added != added_bricks_.end()) index = added->second;
+          }
           bricks_around_.push_back({index, PointOf(at, 0)});
         }
       }
@@ -175,8 +191,8 @@ void ExactRadius::FindBricksAround(LatticePoint p, float radius) {
   }
 }
 
-size_t ExactRadius::FindInBricksAround(LatticePoint p, float radius) {
-  FindBricksAround(p, radius);
+size_t ExactRadius::FindInBricksAround(LatticePoint p, float radius, bool is_exact) {
+  FindBricksAround(p, radius, is_exact);
   if (found_.size() < bricks_around_.size()) found_.resize(2 * bricks_around_.size());
   return FindAllNearest(bricks_around_, Bricks(), SearchFrom(p, kFirstWays),
                         kRoundingUp * radius * radius, found_.data());
@@ -230,6 +246,8 @@ BrickIndex ExactRadius::ChangedBrick(const BrickCoordinates& brick) {
   const BrickIndex stored = near_bricks_.Find(brick), none = near_bricks_.none();
   if (stored != none) return stored;
   const auto added = static_cast<BrickIndex>(changed_bricks_.size());
+  const auto [known, is_new] = added_bricks_.try_emplace(BrickKey(brick).value(), added);
+  if (!is_new) return known->second;
   const LatticePoint low = PointOf(brick, 0);
   for (int position = 0; position < kNeighborCount; ++position) {
     const BrickIndex beside = near_bricks_.Find(NeighborBrick(brick, position));
@@ -238,9 +256,7 @@ BrickIndex ExactRadius::ChangedBrick(const BrickCoordinates& brick) {
     const auto first = static_cast<size_t>(places.data() - border_->places().data());
     for (size_t n = first; n < first + places.size(); ++n) {
       BorderBricks::Place& place = changed_places_[n];
-      if (place.low != low) continue;
-      if (place.index != none) return place.index;
-      place.index = added;
+      if (place.low == low) place.index = added;
     }
   }
   changed_bricks_.emplace_back();

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "absl/status/statusor.h"
@@ -65,9 +66,10 @@ class ExactRadius {
 
   PointSearch SearchFrom(LatticePoint p, int32_t most);
   bool SearchWithin(float reach, LatticePoint p);
-  void FindBricksAround(LatticePoint p, float radius);
+  void SearchAround(LatticePoint p);
+  void FindBricksAround(LatticePoint p, float radius, bool is_exact);
   std::optional<LatticePoint> FirstAtDistance(LatticePoint p, float radius);
-  size_t FindInBricksAround(LatticePoint p, float radius);
+  size_t FindInBricksAround(LatticePoint p, float radius, bool is_exact);
   size_t FindInGroups(LatticePoint p, float radius);
   BrickIndex ChangedBrick(const BrickCoordinates& brick);
   float SquareTo(LatticePoint background, LatticePoint p, int32_t most) const;
@@ -79,7 +81,8 @@ class ExactRadius {
   // brick.
   std::vector<BrickBits> changed_bricks_;
   std::vector<BorderBricks::Place> changed_places_;
-  std::vector<NearBox> near_groups_;  // room for all
+  std::unordered_map<uint64_t, BrickIndex> added_bricks_;  // those that are not stored, by key
+  std::vector<NearBox> near_groups_;                       // room for all
   NearbyBricks near_bricks_;
   AxisScale scale_;
   std::array<float, 3> squares_;  // of a lattice coordinate along each axis
