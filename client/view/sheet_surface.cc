@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "client/view/result_balls.h"
-#include "core/exec/disjoint_sets.h"
+#include "core/exec/union_find.h"
 #include "core/lattice/directions.h"
 
 namespace bccskel::view {
@@ -84,10 +84,10 @@ std::vector<SurfaceTriangle> TrianglesOf(const std::vector<Spot>& spots) {
 }
 
 void DropThickSpots(size_t spots, std::vector<SurfaceTriangle>& triangles) {
-  DisjointSets pieces(spots);
+  UnionFind<uint32_t> pieces(spots);
   for (const SurfaceTriangle& t : triangles) {
-    pieces.Join(t[0], t[1]);
-    pieces.Join(t[0], t[2]);
+    pieces.Unite(t[0], t[1]);
+    pieces.Unite(t[0], t[2]);
   }
   std::vector<size_t> many(spots);
   for (const SurfaceTriangle& t : triangles) ++many[pieces.Find(t[0])];

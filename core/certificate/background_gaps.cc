@@ -91,7 +91,7 @@ std::optional<BackgroundGaps::Gap> BackgroundGaps::GapBefore(size_t place) const
 }
 
 int64_t BackgroundGaps::LinkGap(size_t place, size_t first_member, GapPlaces& hints,
-                                UnionFind& sets) const {
+                                UnionFind<size_t>& sets) const {
   const std::optional<Gap> gap = GapBefore(place);
   if (!gap.has_value()) return 0;
   const BrickCoordinates brick = gap->first;

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "core/certificate/union_find.h"
+#include "core/exec/union_find.h"
 #include "core/volume/brick.h"
 
 namespace bccskel {
@@ -74,7 +74,8 @@ class BackgroundGaps {
   // Unites the gap before stored brick `place`, if there is one, with the gaps and the outside that
   // touch it in the eight neighboring rows of known layers. Node g is member first_member + g of
   // the sets. Returns how many sets it joined. Needs: place < place_count().
-  int64_t LinkGap(size_t place, size_t first_member, GapPlaces& places, UnionFind& sets) const;
+  int64_t LinkGap(size_t place, size_t first_member, GapPlaces& places,
+                  UnionFind<size_t>& sets) const;
 
  private:
   // Stored bricks of one sublattice as keys without the sublattice bit, increasing.

@@ -63,7 +63,7 @@ class ComponentLinks {
   // Component c of `components` is member c of `sets`; node g of `gaps`, which is null for the
   // object, is member components.number_limit() + g.
   ComponentLinks(const Volume& object, const PhaseComponents& components,
-                 const BackgroundGaps* gaps, UnionFind& sets)
+                 const BackgroundGaps* gaps, UnionFind<size_t>& sets)
       : object_(object),
         neighbors_(object.neighbors()),
         components_(components),
@@ -99,7 +99,7 @@ class ComponentLinks {
   const std::span<const BrickNeighborhood> neighbors_;
   const PhaseComponents& components_;
   const BackgroundGaps* const gaps_;
-  UnionFind& sets_;
+  UnionFind<size_t>& sets_;
 };
 
 int64_t ComponentLinks::LinkBrick(BrickIndex n, GapPlaces& places) {

@@ -7,8 +7,8 @@
 
 #include "core/certificate/background_gaps.h"
 #include "core/certificate/phase_components.h"
-#include "core/certificate/union_find.h"
 #include "core/exec/context.h"
+#include "core/exec/union_find.h"
 #include "core/volume/volume.h"
 
 namespace bccskel {
@@ -59,7 +59,7 @@ class ComponentSets {
 
   PhaseComponents pieces_;
   std::optional<BackgroundGaps> gaps_;
-  UnionFind sets_;  // pieces, then gaps
+  UnionFind<size_t> sets_;  // pieces, then gaps
   int64_t count_ = 0;
 };
 

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <tuple>
 
-#include "core/certificate/union_find.h"
+#include "core/exec/union_find.h"
 
 namespace bccskel {
 namespace {
 
 // Joins the runs of two rows that lie within `step` of each other in x.
 void LinkRows(std::span<const VoxelRun> runs, RunLookup::Range a, RunLookup::Range b, int32_t step,
-              UnionFind& sets) {
+              UnionFind<size_t>& sets) {
   for (RunIndex i = a.begin, j = b.begin; i < a.end && j < b.end;) {
     if (runs[i].begin < runs[j].end + step && runs[j].begin < runs[i].end + step) sets.Unite(i, j);
     runs[i].end < runs[j].end ? ++i : ++j;
@@ -48,7 +48,7 @@ std::optional<RunIndex> RunLookup::Find(const std::array<int32_t, 3>& voxel) con
 std::vector<RunIndex> ComponentsOfRuns(std::span<const VoxelRun> runs, MaskAdjacency adjacency) {
   const int32_t step = adjacency == MaskAdjacency::k26 ? 1 : 0;
   const RunLookup lookup(runs);
-  UnionFind sets(runs.size());
+  UnionFind<size_t> sets(runs.size());
   for (RunIndex begin = 0; begin < runs.size();) {
     const RunLookup::Range row = {begin, EndOfRow(runs, begin)};
     const int32_t z = runs[begin].z, y = runs[begin].y;

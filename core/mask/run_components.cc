@@ -96,7 +96,7 @@ void RunComponents::LinkRows(std::span<PhaseRun> a, std::span<PhaseRun> b) {
 
 // A set is found by its smallest member, so the outside stays set 0.
 void RunComponents::Join(uint32_t a, uint32_t b) {
-  if (sets_.Join(a, b)) --count_;
+  if (sets_.Unite(a, b)) --count_;
 }
 
 void RunComponents::Renumber() {

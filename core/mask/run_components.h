@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/certificate/brick_components.h"
-#include "core/exec/disjoint_sets.h"
+#include "core/exec/union_find.h"
 
 namespace bccskel {
 
@@ -80,7 +80,7 @@ class RunComponents {
   PhaseRuns before_;  // the previous slice
   PhaseRuns runs_;    // this slice
   int32_t last_end_ = 0;
-  DisjointSets sets_{1};
+  UnionFind<uint32_t> sets_{1};
   int64_t count_ = 0;
 };
 

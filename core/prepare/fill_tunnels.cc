@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/certificate/component_sets.h"
-#include "core/certificate/union_find.h"
 #include "core/exec/status_macros.h"
+#include "core/exec/union_find.h"
 #include "core/lattice/directions.h"
 #include "core/prepare/ball_closing.h"
 #include "core/prepare/brick_sets.h"
@@ -148,7 +148,7 @@ class TunnelFiller {
     const size_t outside = regions.name_limit();
     std::vector<Way> ways = WaysToRegions(closed, enclosed, regions);
     std::ranges::stable_sort(ways, {}, [&](const Way& way) { return judged_[way.piece].euler; });
-    UnionFind connected(outside + 1);
+    UnionFind<size_t> connected(outside + 1);
     for (const Way& way : ways) {
       for (size_t region : way.regions) {
         if (connected.Unite(way.regions.front(), region)) judged_[way.piece].refused = true;

@@ -13,10 +13,10 @@
 #include <vector>
 
 #include "core/certificate/component_sets.h"
-#include "core/certificate/union_find.h"
 #include "core/distance/places.h"
 #include "core/exec/status_macros.h"
 #include "core/exec/stop_poll.h"
+#include "core/exec/union_find.h"
 #include "core/lattice/directions.h"
 #include "core/lattice/lattice_point_hash.h"
 #include "core/prepare/brick_sets.h"
@@ -205,7 +205,7 @@ class GapJoiner {
   const exec::Context& context_;
   const AxisScale scale_;
   ComponentSets names_;
-  UnionFind joined_;
+  UnionFind<size_t> joined_;
   int64_t left_;  // sets in joined_
   size_t largest_ = 0;
   std::priority_queue<Visit, std::vector<Visit>, std::greater<>> visits_;

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/certificate/component_sets.h"
-#include "core/certificate/union_find.h"
 #include "core/exec/status_macros.h"
+#include "core/exec/union_find.h"
 #include "core/ranks/agreement.h"
 #include "core/ranks/layer_owners.h"
 #include "core/ranks/packing.h"
@@ -48,7 +48,7 @@ uint64_t CountJoined(const std::vector<Glued>& pairs) {
   const auto place_of = [&](const Named& name) {
     return static_cast<size_t>(std::ranges::lower_bound(names, name) - names.begin());
   };
-  UnionFind sets(names.size());
+  UnionFind<size_t> sets(names.size());
   uint64_t joined = 0;
   for (const auto& [a, b] : pairs) joined += sets.Unite(place_of(a), place_of(b)) ? 1 : 0;
   return joined;

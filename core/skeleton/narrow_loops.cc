@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/distance/places.h"
-#include "core/exec/disjoint_sets.h"
+#include "core/exec/union_find.h"
 #include "core/skeleton/skeleton_figures.h"
 
 namespace bccskel {
@@ -79,7 +79,7 @@ class LoopCounter {
         const std::vector<uint32_t> loop = LoopOver(n);
         if (!loop.empty() && !FitsBetween(BallsOf(loop), width_)) ++narrow;
       }
-      joined_.Join(edge.source, edge.target);
+      joined_.Unite(edge.source, edge.target);
       edges_at_[edge.source].push_back(n);
       if (edge.target != edge.source) edges_at_[edge.target].push_back(n);
     }
@@ -157,7 +157,7 @@ class LoopCounter {
 
   const SkeletonGraph& graph_;
   const double width_;
-  DisjointSets joined_;                          // nodes, by the edges added
+  UnionFind<uint32_t> joined_;                   // nodes, by the edges added
   std::vector<double> lengths_;                  // by edge
   std::vector<std::vector<uint32_t>> edges_at_;  // by node: those added
 };

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "core/distance/places.h"
-#include "core/exec/disjoint_sets.h"
+#include "core/exec/union_find.h"
 #include "core/skeleton/curve_smoothing.h"
 
 namespace bccskel {
@@ -89,8 +89,8 @@ EdgeFigures FiguresOf(const SkeletonGraph& graph, const SkeletonEdge& edge,
 }
 
 GraphComponents ComponentsOf(const SkeletonGraph& graph, const std::stop_token& stop) {
-  DisjointSets joined(graph.nodes.size());  // by their first node
-  for (const SkeletonEdge& edge : graph.edges) joined.Join(edge.source, edge.target);
+  UnionFind<uint32_t> joined(graph.nodes.size());  // by their first node
+  for (const SkeletonEdge& edge : graph.edges) joined.Unite(edge.source, edge.target);
   GraphComponents components;
   components.of_node.resize(graph.nodes.size());
   for (uint32_t n = 0; n < graph.nodes.size(); ++n) {

@@ -7,7 +7,7 @@
 #include <span>
 #include <utility>
 
-#include "core/exec/disjoint_sets.h"
+#include "core/exec/union_find.h"
 #include "core/import/mesh/boundary_loops.h"
 #include "core/import/mesh/shell_nesting.h"
 #include "core/import/mesh/surface_edges.h"
@@ -181,9 +181,9 @@ Reading ReadOneSide(Reading reading, MeshReport& report) {
 
 // Numbers the components in the order of their first triangles.
 std::vector<uint32_t> LabelComponents(const Reading& reading, uint32_t& count) {
-  DisjointSets sets(reading.mesh.triangles.size());
+  UnionFind<uint32_t> sets(reading.mesh.triangles.size());
   ForEachEdge(reading.sides, [&](std::span<const TriangleSide> edge) {
-    for (const TriangleSide& side : edge) sets.Join(edge[0].triangle, side.triangle);
+    for (const TriangleSide& side : edge) sets.Unite(edge[0].triangle, side.triangle);
   });
   std::vector<uint32_t> label(reading.mesh.triangles.size());
   count = 0;
@@ -204,7 +204,7 @@ std::vector<std::optional<int64_t>> EulerCharacteristics(const Reading& reading,
     std::optional<int64_t>& sum = euler[component_of[triangle]];
     if (sum) *sum += value;
   };
-  DisjointSets fans(3 * reading.mesh.triangles.size());
+  UnionFind<uint32_t> fans(3 * reading.mesh.triangles.size());
   ForEachEdge(reading.sides, [&](std::span<const TriangleSide> edge) {
     add(edge[0].triangle, -1);
     if (edge.size() != 2) {
@@ -214,8 +214,9 @@ std::vector<std::optional<int64_t>> EulerCharacteristics(const Reading& reading,
     const auto corner = [](const TriangleSide& s, int c) {
       return 3 * s.triangle + static_cast<uint32_t>(c);
     };
-    fans.Join(corner(edge[0], edge[0].smaller_corner()), corner(edge[1], edge[1].smaller_corner()));
-    fans.Join(corner(edge[0], edge[0].larger_corner()), corner(edge[1], edge[1].larger_corner()));
+    fans.Unite(corner(edge[0], edge[0].smaller_corner()),
+               corner(edge[1], edge[1].smaller_corner()));
+    fans.Unite(corner(edge[0], edge[0].larger_corner()), corner(edge[1], edge[1].larger_corner()));
   });
   for (uint32_t t = 0; t < reading.mesh.triangles.size(); ++t) {
     add(t, 1);

@@ -35,7 +35,7 @@ size_t NodeAt(const BackgroundGaps& gaps, BrickCoordinates missing) {
 int64_t ComponentsOf(const std::vector<BrickKey>& keys) {
   const BackgroundGaps gaps(keys);
   constexpr size_t kFirstMember = 3;
-  UnionFind sets(kFirstMember + gaps.node_limit());
+  UnionFind<size_t> sets(kFirstMember + gaps.node_limit());
   GapPlaces places;
   int64_t components = gaps.node_count();
   for (size_t place = 0; place < gaps.place_count(); ++place) {

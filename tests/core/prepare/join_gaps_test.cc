@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/certificate/certificate.h"
-#include "core/exec/disjoint_sets.h"
+#include "core/exec/union_find.h"
 #include "core/lattice/directions.h"
 #include "core/pipeline/skeletonize.h"
 #include "tests/support/contexts.h"
@@ -70,13 +70,13 @@ TEST(JoinGaps, DrawsAForest) {
 
 // How many sets the points are in if those at most `reach` apart are together.
 int64_t SetsOf(const std::vector<LatticePoint>& points, double reach) {
-  DisjointSets sets(points.size());
+  UnionFind<uint32_t> sets(points.size());
   auto count = static_cast<int64_t>(points.size());
   for (uint32_t a = 0; a < points.size(); ++a) {
     for (uint32_t b = 0; b < a; ++b) {
       const LatticePoint way = points[a] - points[b];
       if (Dot(way, way) > reach * reach || sets.Find(a) == sets.Find(b)) continue;
-      sets.Join(a, b);
+      sets.Unite(a, b);
       --count;
     }
   }
