@@ -15,13 +15,9 @@ using Vector = std::array<float, 3>;
 
 Vector Scaled(const Vector& v, float by) { return {v[0] * by, v[1] * by, v[2] * by}; }
 Vector Added(const Vector& a, const Vector& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
-float Product(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vector Cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 // The unit vector; (1, 0, 0) for the zero vector.
 Vector Direction(const Vector& v) {
-  const float length = std::sqrt(Product(v, v));
+  const float length = LengthOf(v);
   return length > 0 ? Scaled(v, 1 / length) : Vector{1, 0, 0};
 }
 
@@ -107,8 +103,8 @@ Tube TubeMaker::Around(const SkeletonEdge& edge, const std::vector<CurvePoint>& 
     const Vector before = PlaceOf(curve[n == 0 ? 0 : n - 1]);
     const Vector after = PlaceOf(curve[std::min(n + 1, curve.size() - 1)]);
     const Vector along = Direction(Added(after, Scaled(before, -1)));
-    side = Added(side, Scaled(along, -Product(side, along)));
-    if (Product(side, side) < 1e-8f) side = Cross({along[1], along[2], -along[0]}, along);
+    side = Added(side, Scaled(along, -Dot(side, along)));
+    if (Dot(side, side) < 1e-8f) side = Cross({along[1], along[2], -along[0]}, along);
     side = Direction(side);
     if (n == 0) AddVertex(PlaceOf(curve[n]), Scaled(along, -1), curve[n].radius, tube);
     AddRing(curve[n], side, Cross(along, side), tube);

@@ -18,19 +18,7 @@ namespace bccskel {
 
 // A position between lattice points, or the vector from one to another, in lattice units along the
 // axes of the lattice, so stretched where spacings differ.
-using Coordinates = std::array<double, 3>;
-
-// a + t * b.
-inline Coordinates Sum(const Coordinates& a, double t, const Coordinates& b) {
-  return {a[0] + t * b[0], a[1] + t * b[1], a[2] + t * b[2]};
-}
-
-inline Coordinates Times(double t, const Coordinates& a) { return Sum({0, 0, 0}, t, a); }
-
-inline double LengthOf(const Coordinates& way) { return std::sqrt(Dot(way, way)); }
-
-// Normalizes a vector. Needs: its length is not 0.
-inline Coordinates Unit(const Coordinates& way) { return Times(1 / LengthOf(way), way); }
+using Coordinates = Vector3<double>;
 
 // Two unit vectors perpendicular to `way` and to each other. Needs: `way` has length 1.
 inline std::array<Coordinates, 2> Across(const Coordinates& way) {

@@ -2,9 +2,10 @@
 #define BCCSKEL_CORE_LATTICE_LATTICE_POINT_H_
 
 #include <array>
-#include <cmath>
 #include <compare>
 #include <cstdint>
+
+#include "core/lattice/vectors.h"
 
 // Dictionary of coordinate frames.
 //
@@ -98,19 +99,10 @@ struct LatticeBox {
 // coordinates fit their 21-bit fields.
 inline constexpr int32_t kMaxExtentCells = 1 << 22;
 
-using WorldPoint = std::array<double, 3>;
-
-constexpr double Dot(const WorldPoint& a, const WorldPoint& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-constexpr WorldPoint Cross(const WorldPoint& a, const WorldPoint& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
+using WorldPoint = Vector3<double>;
 
 inline double DistanceBetween(const WorldPoint& a, const WorldPoint& b) {
-  const WorldPoint way = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-  return std::sqrt(Dot(way, way));
+  return LengthOf(Minus(b, a));
 }
 
 // Where the lattice lies in the world. `spacing` is the edge of the cubic cell along each axis;

@@ -48,7 +48,7 @@ struct Ray {
   Coordinates from, to;
 };
 
-Coordinates Between(const Coordinates& a, const Coordinates& b) { return Sum(b, -1, a); }
+Coordinates Between(const Coordinates& a, const Coordinates& b) { return Minus(b, a); }
 
 // Whether the way from one point to another follows `along`, of any length.
 bool Follows(const Coordinates& way, const Coordinates& along) {

@@ -1,7 +1,6 @@
 #include "core/export/surface/smooth_surface.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace bccskel {
 namespace {
@@ -24,20 +23,11 @@ void SumNeighbors(const SurfaceMesh& mesh, std::vector<SurfaceVertex>& sums,
   }
 }
 
-SurfaceVertex Minus(const SurfaceVertex& a, const SurfaceVertex& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-// Twice the triangle's area along its normal.
-SurfaceVertex Cross(const SurfaceVertex& a, const SurfaceVertex& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
 // A vertex on its way from `start` to `goal`, held back the more the farther it goes; a plain limit
 // would leave kinks where it is met. The way t(1 - t^2 / reach^2) is longest at reach / sqrt(3).
 SurfaceVertex HeldBack(const SurfaceVertex& goal, const SurfaceVertex& start, float reach) {
   const SurfaceVertex way = Minus(goal, start);
-  const float square = way[0] * way[0] + way[1] * way[1] + way[2] * way[2];
+  const float square = Dot(way, way);
   const float free = std::max(0.0f, 1 - square / (reach * reach));
   return {start[0] + free * way[0], start[1] + free * way[1], start[2] + free * way[2]};
 }
@@ -74,7 +64,7 @@ std::vector<SurfaceVertex> NormalsOf(const SurfaceMesh& mesh) {
     for (const uint32_t corner : {a, b, c}) AddTo(normals[corner], face);
   }
   for (SurfaceVertex& n : normals) {
-    const float length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    const float length = LengthOf(n);
     if (length > 0) n = {n[0] / length, n[1] / length, n[2] / length};
   }
   return normals;

@@ -15,13 +15,8 @@ namespace {
 // Positions are written with a few digits: of the distance of slices, so much is rounding.
 constexpr double kRounding = 0.01;
 
-// a + t * b
-WorldPoint Sum(const WorldPoint& a, double t, const WorldPoint& b) {
-  return {a[0] + t * b[0], a[1] + t * b[1], a[2] + t * b[2]};
-}
-
 bool Near(const WorldPoint& a, const WorldPoint& b, double most) {
-  const WorldPoint way = Sum(a, -1, b);
+  const WorldPoint way = Minus(a, b);
   return Dot(way, way) <= most * most;
 }
 
@@ -131,9 +126,9 @@ WorldPoint StepVector(const std::vector<Placed>& frames, double step) {
   const DicomFrame& first = frames.front().frame;
   const double length = frames.back().along - frames.front().along;
   const double steps = std::round(length / step);
-  if (steps == 0) return Sum({0, 0, 0}, step, Cross(first.along_row, first.along_column));
-  const WorldPoint way = Sum(frames.back().frame.position, -1, first.position);
-  return Sum({0, 0, 0}, 1 / steps, way);
+  if (steps == 0) return Times(step, Cross(first.along_row, first.along_column));
+  const WorldPoint way = Minus(frames.back().frame.position, first.position);
+  return Times(1 / steps, way);
 }
 
 // Slices of a tilted gantry are each moved against the one before within their plane.
@@ -142,7 +137,7 @@ absl::Status CheckStraight(const DicomFrame& first, const WorldPoint& along_z) {
   const WorldPoint normal = Cross(first.along_row, first.along_column);
   const double step = Dot(normal, along_z);
   const WorldPoint aside = Sum(along_z, -step, normal);
-  const double moved = std::sqrt(Dot(aside, aside));
+  const double moved = LengthOf(aside);
   if (moved <= kMostLean * std::abs(step)) return absl::OkStatus();
   constexpr double kDegrees = 180 / std::numbers::pi;
   return absl::InvalidArgumentError(
@@ -169,8 +164,8 @@ absl::StatusOr<DicomStack> StackFrames(std::vector<DicomFrame> unsorted, DicomGa
   BCCSKEL_ASSIGN_OR_RETURN(stack.size, SizeOfAxes(lengths, limits));
   BCCSKEL_ASSIGN_OR_RETURN(
       stack.placement,
-      PlacementOfSteps({Sum({0, 0, 0}, first.spacing[0], first.along_row),
-                        Sum({0, 0, 0}, first.spacing[1], first.along_column), along_z},
+      PlacementOfSteps({Times(first.spacing[0], first.along_row),
+                        Times(first.spacing[1], first.along_column), along_z},
                        first.position, std::array{first.spacing[0], first.spacing[1], step}));
   stack.slices.resize(static_cast<size_t>(stack.size.nz));
   for (Placed& placed : frames) {

@@ -53,7 +53,7 @@ Spacing LengthsOf(const std::array<WorldPoint, 3>& steps, const std::optional<Sp
       steps, [](const WorldPoint& step) { return std::ranges::count(step, 0.0) < 2; });
   Spacing lengths;
   for (size_t axis = 0; axis < 3; ++axis) {
-    lengths[axis] = std::sqrt(Dot(steps[axis], steps[axis]));
+    lengths[axis] = LengthOf(steps[axis]);
     const double other = stated.has_value() ? (*stated)[axis] : 0;
     if (std::abs(lengths[axis] - other) <= kMaxRounding * other) {
       lengths[axis] = other;
@@ -158,7 +158,7 @@ absl::StatusOr<Placement> PlacementOfSteps(const std::array<WorldPoint, 3>& step
   const Spacing spacing = LengthsOf(steps, stated);
   BCCSKEL_ASSIGN_OR_RETURN(Placement placement, PlacementOfSpacing(spacing, origin));
   for (size_t axis = 0; axis < 3; ++axis) {
-    const double length = std::sqrt(Dot(steps[axis], steps[axis]));
+    const double length = LengthOf(steps[axis]);
     for (size_t row = 0; row < 3; ++row) {
       placement.direction[3 * row + axis] = steps[axis][row] / length;
     }

@@ -42,9 +42,6 @@ struct Box {
 
 bool NamesVertexTwice(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 
-Vertex Subtract(const Vertex& a, const Vertex& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
 Box BoxOf(const TriangleMesh& mesh) {
   Box box;
   for (const Triangle& triangle : mesh.triangles) {
@@ -95,7 +92,7 @@ Reading Read(TriangleMesh mesh) {
 Reading ReadWithoutFlatTriangles(TriangleMesh mesh) {
   std::erase_if(mesh.triangles, [&](const Triangle& t) {
     const Vertex& a = mesh.vertices[t[0]];
-    const Vertex normal = Cross(Subtract(mesh.vertices[t[1]], a), Subtract(mesh.vertices[t[2]], a));
+    const Vertex normal = Cross(Minus(mesh.vertices[t[1]], a), Minus(mesh.vertices[t[2]], a));
     return Dot(normal, normal) == 0;
   });
   return Read(std::move(mesh));
@@ -227,18 +224,17 @@ std::vector<std::optional<int64_t>> EulerCharacteristics(const Reading& reading,
 
 // Volume between the triangle and a point; a near one keeps the digits of small components.
 double SignedVolume(const Surface& surface, const Triangle& t, const Vertex& apex) {
-  const Vertex a = Subtract(surface.vertices[t[0]], apex);
-  const Vertex b = Subtract(surface.vertices[t[1]], apex);
-  const Vertex c = Subtract(surface.vertices[t[2]], apex);
+  const Vertex a = Minus(surface.vertices[t[0]], apex);
+  const Vertex b = Minus(surface.vertices[t[1]], apex);
+  const Vertex c = Minus(surface.vertices[t[2]], apex);
   return Dot(a, Cross(b, c)) / 6;
 }
 
 double AreaOf(std::span<const Vertex> vertices, std::span<const Triangle> triangles) {
   double area = 0;
   for (const auto& [a, b, c] : triangles) {
-    const Vertex normal =
-        Cross(Subtract(vertices[b], vertices[a]), Subtract(vertices[c], vertices[a]));
-    area += std::sqrt(Dot(normal, normal)) / 2;
+    const Vertex normal = Cross(Minus(vertices[b], vertices[a]), Minus(vertices[c], vertices[a]));
+    area += LengthOf(normal) / 2;
   }
   return area;
 }

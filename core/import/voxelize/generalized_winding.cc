@@ -18,14 +18,11 @@ constexpr double kInsideAbove = 0.5 + 1e-9;
 constexpr double kFarInRadii = 4;
 constexpr double kFourPi = 4 * std::numbers::pi;
 
-Vector operator-(const Vector& a, const Vector& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
+Vector operator-(const Vector& a, const Vector& b) { return Minus(a, b); }
 Vector operator+(const Vector& a, const Vector& b) {
   return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
 }
 Vector operator*(const Vector& a, double s) { return {a[0] * s, a[1] * s, a[2] * s}; }
-double Length(const Vector& a) { return std::sqrt(Dot(a, a)); }
 // Exact: 40 bits fit a double.
 Vector InLatticeUnits(const GridPoint& p) {
   constexpr double kTick = 1.0 / (1 << kTickBits);
@@ -57,7 +54,7 @@ double ExactSide(const Vector& a, const Vector& b, const Vector& c) {
 // Needs: corners whose coordinates are whole ticks.
 double SolidAngle(const Vector& a, const Vector& b, const Vector& c) {
   constexpr double kRounding = 1e-14;  // of a determinant, relative to the lengths
-  const double la = Length(a), lb = Length(b), lc = Length(c);
+  const double la = LengthOf(a), lb = LengthOf(b), lc = LengthOf(c);
   const double along = la * lb * lc + Dot(a, b) * lc + Dot(b, c) * la + Dot(c, a) * lb;
   const double across = Dot(a, Cross(b, c));
   if (along > 0 || std::abs(across) > kRounding * la * lb * lc)
@@ -75,7 +72,7 @@ double GradientBound(double length, double distance) {
 // The same for a closed part, which is a dipole from so far away.
 double DipoleBound(const Vector& dipole, double distance) {
   if (distance <= 0) return std::numeric_limits<double>::infinity();
-  return 2 * Length(dipole) / (distance * distance * distance);
+  return 2 * LengthOf(dipole) / (distance * distance * distance);
 }
 
 // The same for a straight edge, which adds no more than an endless line.
@@ -84,7 +81,7 @@ double EdgeBound(const Vector& a, const Vector& b, double reach) {
   const Vector along = b - a;
   const double square = Dot(along, along);
   const double part = square == 0 ? 0 : std::clamp(-Dot(a, along) / square, 0.0, 1.0);
-  const double distance = Length(a + along * part) - reach;
+  const double distance = LengthOf(a + along * part) - reach;
   if (distance <= 0) return std::numeric_limits<double>::infinity();
   return std::min(GradientBound(std::sqrt(square), distance), 2 / (kFourPi * distance));
 }
@@ -121,7 +118,7 @@ int32_t GeneralizedWindingRule::AddPatch(std::span<const Vector> loop) {
   const auto& [a, b, c] = patch.corners;
   patch.beyond = {AddPatch(loop.first(half + 1)), AddPatch(loop.subspan(half))};
   const Vector doubled = Cross(b - a, c - a);
-  patch.area = Length(doubled) / 2;
+  patch.area = LengthOf(doubled) / 2;
   patch.dipole = doubled * (0.5 / kFourPi);
   patch.middle = (a + b + c) * (patch.area / 3);
   for (int32_t part : patch.beyond) {
@@ -133,8 +130,8 @@ int32_t GeneralizedWindingRule::AddPatch(std::span<const Vector> loop) {
   }
   patch.middle = patch.area > 0 ? patch.middle * (1 / patch.area) : b;
   for (size_t n = 0; n < loop.size(); ++n) {
-    patch.radius = std::max(patch.radius, Length(loop[n] - patch.middle));
-    if (n > 0) patch.length += Length(loop[n] - loop[n - 1]);
+    patch.radius = std::max(patch.radius, LengthOf(loop[n] - patch.middle));
+    if (n > 0) patch.length += LengthOf(loop[n] - loop[n - 1]);
   }
   patches_.push_back(patch);
   return static_cast<int32_t>(patches_.size()) - 1;
@@ -161,7 +158,7 @@ void GeneralizedWindingRule::AddField(int32_t patch, const Vector& p, double rea
                                       Field& field) const {
   const Patch& at = patches_[static_cast<size_t>(patch)];
   const Vector to = at.middle - p;
-  const double distance = Length(to);
+  const double distance = LengthOf(to);
   if (distance > kFarInRadii * at.radius) {
     field.value += Dot(at.dipole, to) / (distance * distance * distance);
     const double nearest = distance - at.radius - reach;

@@ -51,14 +51,14 @@ std::optional<Slim> SlimOf(const SurfaceSides& sides, uint32_t triangle) {
       .start = {}, .edge = {}, .to_corner = {}, .normal = sides.Normal(triangle), .height = {}};
   for (size_t n = 0; n < corners.size(); ++n) {
     const Coordinates edge = Sum(corners[(n + 1) % 3], -1, corners[n]);
-    const double length = std::sqrt(Dot(edge, edge));
+    const double length = LengthOf(edge);
     if (length <= slim.length) continue;
     slim.length = length;
     slim.start = corners[n], slim.edge = edge;
     slim.to_corner = Sum(corners[(n + 2) % 3], -1, corners[n]);
   }
   const Coordinates area = Cross(slim.edge, slim.to_corner);
-  const double twice_area = std::sqrt(Dot(area, area));
+  const double twice_area = LengthOf(area);
   if (twice_area == 0 || twice_area >= kLeastResolved * slim.length) return std::nullopt;
   slim.foot = std::clamp(Dot(slim.to_corner, slim.edge) / (slim.length * slim.length), 0.0, 1.0);
   slim.height = Sum(slim.to_corner, -slim.foot, slim.edge);

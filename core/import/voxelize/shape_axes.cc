@@ -30,9 +30,7 @@ constexpr double kAlongWorld = 5e-9;      // cosine less than 1 of an angle of 1
 constexpr std::array<std::array<double, 4>, 3> kTurns = {
     {{1, 0.3, 0.2, 0.5}, {1, -0.4, 0.3, 0.2}, {1, 0.7, -0.5, 0.3}}};
 
-WorldPoint Scaled(double factor, const WorldPoint& v) { return Sum({0, 0, 0}, factor, v); }
 WorldPoint Plus(const WorldPoint& a, const WorldPoint& b) { return Sum(a, 1, b); }
-WorldPoint Minus(const WorldPoint& a, const WorldPoint& b) { return Sum(a, -1, b); }
 
 // A triangle, from the centroid of the surface.
 struct Facet {
@@ -48,9 +46,9 @@ class Facets {
     for (const auto& [a, b, c] : surface.triangles) {
       const std::array corners = {surface.vertices[a], surface.vertices[b], surface.vertices[c]};
       const WorldPoint normal = Cross(Minus(corners[1], corners[0]), Minus(corners[2], corners[0]));
-      const double twice = std::sqrt(Dot(normal, normal));
+      const double twice = LengthOf(normal);
       if (!(twice > 0)) continue;
-      facets_.push_back({corners, Scaled(1 / twice, normal), twice / 2});
+      facets_.push_back({corners, Times(1 / twice, normal), twice / 2});
       area_ += twice / 2;
     }
     Center();
@@ -106,9 +104,9 @@ class Facets {
     WorldPoint sum = {0, 0, 0};
     for (const Facet& facet : facets_) {
       const auto& [a, b, c] = facet.corners;
-      sum = Plus(sum, Scaled(facet.area, Plus(a, Plus(b, c))));
+      sum = Plus(sum, Times(facet.area, Plus(a, Plus(b, c))));
     }
-    const WorldPoint centroid = Scaled(1 / (3 * area_), sum);
+    const WorldPoint centroid = Times(1 / (3 * area_), sum);
     for (Facet& facet : facets_) {
       for (WorldPoint& corner : facet.corners) corner = Minus(corner, centroid);
     }
@@ -139,7 +137,7 @@ std::optional<WorldPoint> CommonNormal(const std::vector<WorldPoint>& normals, d
   WorldPoint sum = {0, 0, 0};
   for (const WorldPoint& normal : normals) {
     if (!is_parallel(*common, normal)) continue;
-    sum = Plus(sum, Dot(normal, *common) < 0 ? Scaled(-1, normal) : normal);
+    sum = Plus(sum, Dot(normal, *common) < 0 ? Times(-1, normal) : normal);
   }
   return Unit(sum);
 }
@@ -176,8 +174,8 @@ Axes Diagonalize(Matrix& m) {
         m[q][k] = s * pk + c * qk;
       }
       const WorldPoint old = vectors[p];
-      vectors[p] = Plus(Scaled(c, old), Scaled(-s, vectors[q]));
-      vectors[q] = Plus(Scaled(s, old), Scaled(c, vectors[q]));
+      vectors[p] = Plus(Times(c, old), Times(-s, vectors[q]));
+      vectors[q] = Plus(Times(s, old), Times(c, vectors[q]));
     }
   }
   return vectors;
@@ -202,7 +200,7 @@ std::optional<Axes> PrincipalAxes(const Facets& facets) {
     const auto least =
         std::ranges::min_element(only, {}, [](double v) { return std::abs(v); }) - only.begin();
     world[static_cast<size_t>(least)] = 1;
-    const WorldPoint second = Unit(Minus(world, Scaled(Dot(world, only), only)));
+    const WorldPoint second = Unit(Minus(world, Times(Dot(world, only), only)));
     return Axes{only, second, Cross(only, second)};
   }
   const WorldPoint first = Unit(axes[0]);
@@ -243,7 +241,7 @@ Axes Oriented(const Axes& axes, const Facets& facets) {
       bool against_skew = false;
       for (size_t n = 0; n < 3; ++n) {
         const double sense = (senses >> n & 1) != 0 ? -1 : 1;
-        turned[n] = Scaled(sense, axes[order[n]]);
+        turned[n] = Times(sense, axes[order[n]]);
         closeness += turned[n][n];
         against_skew = against_skew || sense * skews[order[n]] < -kDistinct;
       }
@@ -263,8 +261,8 @@ Axes Turned(const Axes& axes, const std::array<double, 4>& turn) {
                         {2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z}}};
   Axes turned;
   for (size_t n = 0; n < 3; ++n) {
-    turned[n] = Unit(Plus(Scaled(rows[n][0], axes[0]),
-                          Plus(Scaled(rows[n][1], axes[1]), Scaled(rows[n][2], axes[2]))));
+    turned[n] = Unit(Plus(Times(rows[n][0], axes[0]),
+                          Plus(Times(rows[n][1], axes[1]), Times(rows[n][2], axes[2]))));
   }
   return turned;
 }
@@ -274,7 +272,7 @@ Axes Turned(const Axes& axes, const std::array<double, 4>& turn) {
 Surface ShapeAxes::Along(const Surface& surface) const {
   Surface own = surface;
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  WorldPoint low = {kInfinity, kInfinity, kInfinity}, high = Scaled(-1, low);
+  WorldPoint low = {kInfinity, kInfinity, kInfinity}, high = Times(-1, low);
   for (TriangleMesh::Vertex& v : own.vertices) {
     v = {Dot(axes[0], v), Dot(axes[1], v), Dot(axes[2], v)};
   }
@@ -288,9 +286,9 @@ Surface ShapeAxes::Along(const Surface& surface) const {
   }
   const WorldPoint size = Minus(high, low);
   const double unit = std::ranges::max(size);
-  for (TriangleMesh::Vertex& v : own.vertices) v = Scaled(1 / unit, Minus(v, low));
-  own.lower = Scaled(2 * surface.half_size, low);
-  own.upper_unit = Scaled(1 / unit, size);
+  for (TriangleMesh::Vertex& v : own.vertices) v = Times(1 / unit, Minus(v, low));
+  own.lower = Times(2 * surface.half_size, low);
+  own.upper_unit = Times(1 / unit, size);
   own.half_size = surface.half_size * unit;
   own.unit_volume = surface.unit_volume / (unit * unit * unit);
   return own;

@@ -2,7 +2,6 @@
 #define BCCSKEL_CORE_IMPORT_VOXELIZE_SURFACE_SIDES_H_
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 
 #include "core/distance/places.h"
@@ -42,7 +41,7 @@ class SurfaceSides {
   Coordinates Normal(size_t triangle) const {
     const auto [a, b, c] = Corners(triangle);
     const Coordinates normal = Cross(Sum(b, -1, a), Sum(c, -1, a));
-    const double length = std::sqrt(Dot(normal, normal));
+    const double length = LengthOf(normal);
     if (length == 0) return normal;
     return Sum({0, 0, 0}, request_.sign[triangle] / length, normal);
   }

@@ -244,11 +244,8 @@ class Voxelizer {
   std::string WallsInWords(const Volume& volume) const {
     double area = 0;
     for (const auto& [a, b, c] : surface_.triangles) {
-      const WorldPoint &at = surface_.vertices[a], &v = surface_.vertices[b],
-                       &w = surface_.vertices[c];
-      const WorldPoint normal = Cross({v[0] - at[0], v[1] - at[1], v[2] - at[2]},
-                                      {w[0] - at[0], w[1] - at[1], w[2] - at[2]});
-      area += std::sqrt(Dot(normal, normal)) / 2;
+      const WorldPoint& at = surface_.vertices[a];
+      area += LengthOf(Cross(Minus(surface_.vertices[b], at), Minus(surface_.vertices[c], at))) / 2;
     }
     const double thickness = 2 * surface_.unit_volume / area;
     const double cell = volume.placement().spacing[0] / surface_.half_size / 2;

@@ -14,8 +14,6 @@ namespace {
 
 using Vector = std::array<double, 3>;
 
-Vector Minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-
 struct Solid {
   enum class Kind : uint8_t { kBall, kCylinder, kPlate };
   Kind kind = Kind::kBall;

@@ -12,6 +12,7 @@
 #include <numbers>
 
 #include "absl/strings/str_format.h"
+#include "core/lattice/vectors.h"
 
 namespace bccskel::testing {
 namespace {
@@ -35,14 +36,6 @@ TriangleMesh ClosedTube(int around, int across, const std::function<Vertex(doubl
     }
   }
   return mesh;
-}
-
-Vertex Cross(const Vertex& a, const Vertex& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Vertex Unit(const Vertex& a) {
-  const double length = std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
-  return {a[0] / length, a[1] / length, a[2] / length};
 }
 
 void AppendRaw(std::string& bytes, uint64_t raw, int size, PlyKind kind) {
@@ -124,8 +117,8 @@ TriangleMesh TrefoilTube(double tube_radius, int around, int across) {
                   -std::sin(3 * t)};
   };
   const auto tangent = [](double t) {
-    return Unit({std::cos(t) + 4 * std::cos(2 * t), -std::sin(t) + 4 * std::sin(2 * t),
-                 -3 * std::cos(3 * t)});
+    return Unit(Vertex{std::cos(t) + 4 * std::cos(2 * t), -std::sin(t) + 4 * std::sin(2 * t),
+                       -3 * std::cos(3 * t)});
   };
   return ClosedTube(around, across, [=](double u, double v) {
     const Vertex along = tangent(u), side = Unit(Cross(along, {0, 0, 1}));

@@ -110,11 +110,7 @@ bool Meets(const Vertex& p, const Vertex& q, const Vertex& a, const Vertex& b, c
 
 // Triangles with corners on a small grid meet in every degenerate way; integers are exact.
 using Whole = std::array<int64_t, 3>;
-int64_t WholeDot(const Whole& a, const Whole& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Whole WholeCross(const Whole& a, const Whole& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Whole Between(const Whole& a, const Whole& b) { return {b[0] - a[0], b[1] - a[1], b[2] - a[2]}; }
+Whole Between(const Whole& a, const Whole& b) { return Minus(b, a); }
 using Corners = std::array<Whole, 3>;
 
 struct Fraction {
@@ -125,14 +121,14 @@ struct Fraction {
 // Where the triangle meets a plane that it crosses, along the direction.
 std::optional<std::pair<Fraction, Fraction>> Segment(const Corners& t, const Corners& plane,
                                                      const Whole& along) {
-  const Whole normal = WholeCross(Between(plane[0], plane[1]), Between(plane[0], plane[2]));
+  const Whole normal = Cross(Between(plane[0], plane[1]), Between(plane[0], plane[2]));
   std::array<int64_t, 3> height;
-  for (size_t n = 0; n < 3; ++n) height[n] = WholeDot(normal, Between(plane[0], t[n]));
+  for (size_t n = 0; n < 3; ++n) height[n] = Dot(normal, Between(plane[0], t[n]));
   if (std::ranges::max(height) <= 0 || std::ranges::min(height) >= 0) return std::nullopt;
   std::vector<Fraction> places;
   for (size_t n = 0; n < 3; ++n) {
     const size_t m = (n + 1) % 3;
-    const int64_t at = WholeDot(along, t[n]), to = WholeDot(along, t[m]);
+    const int64_t at = Dot(along, t[n]), to = Dot(along, t[m]);
     if (height[n] == 0) places.push_back({at, 1});
     if (std::min(height[n], height[m]) < 0 && std::max(height[n], height[m]) > 0) {
       const int64_t sign = height[n] > height[m] ? 1 : -1;
@@ -145,9 +141,9 @@ std::optional<std::pair<Fraction, Fraction>> Segment(const Corners& t, const Cor
 
 bool ShareASegment(const Corners& s, const Corners& t) {
   const auto normal = [](const Corners& c) {
-    return WholeCross(Between(c[0], c[1]), Between(c[0], c[2]));
+    return Cross(Between(c[0], c[1]), Between(c[0], c[2]));
   };
-  const Whole along = WholeCross(normal(s), normal(t));
+  const Whole along = Cross(normal(s), normal(t));
   const auto one = Segment(s, t, along), other = Segment(t, s, along);
   return one && other && std::max(one->first, other->first) < std::min(one->second, other->second);
 }

@@ -10,33 +10,25 @@ namespace {
 
 using Vector = std::array<double, 3>;
 
-Vector Minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Vector Times(const Vector& a, double s) { return {a[0] * s, a[1] * s, a[2] * s}; }
-double Dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-double Length(const Vector& a) { return std::sqrt(Dot(a, a)); }
-Vector Cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
 constexpr Vector kSkew = {0.5377390163, 0.2881726537, -0.7923154841};
 
 // Distance to the segment from the origin to `along`.
 double DistanceToSegment(const Vector& p, const Vector& along) {
   const double square = Dot(along, along);
   const double t = square > 0 ? std::clamp(Dot(p, along) / square, 0.0, 1.0) : 0;
-  return Length(Minus(p, Times(along, t)));
+  return LengthOf(Minus(p, Times(t, along)));
 }
 
 double DistanceToTriangle(const Vector& a, const Vector& b, const Vector& c, const Vector& p) {
   const Vector normal = Cross(Minus(b, a), Minus(c, a));
   double distance = std::numeric_limits<double>::infinity();
-  bool above = Length(normal) > 0;
+  bool above = LengthOf(normal) > 0;
   for (const auto& [from, to] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
     const Vector side = Minus(to, from), at = Minus(p, from);
     distance = std::min(distance, DistanceToSegment(at, side));
     above = above && Dot(Cross(side, at), normal) >= 0;
   }
-  return above ? std::abs(Dot(Minus(p, a), normal)) / Length(normal) : distance;
+  return above ? std::abs(Dot(Minus(p, a), normal)) / LengthOf(normal) : distance;
 }
 
 }  // namespace
@@ -62,7 +54,7 @@ double SolidAngleWinding(const TriangleMesh& mesh, const WorldPoint& p) {
   for (const auto& [i, j, k] : mesh.triangles) {
     const Vector a = Minus(mesh.vertices[i], p), b = Minus(mesh.vertices[j], p),
                  c = Minus(mesh.vertices[k], p);
-    const double la = Length(a), lb = Length(b), lc = Length(c);
+    const double la = LengthOf(a), lb = LengthOf(b), lc = LengthOf(c);
     angle += 2 * std::atan2(Dot(a, Cross(b, c)),
                             la * lb * lc + Dot(a, b) * lc + Dot(b, c) * la + Dot(c, a) * lb);
   }
