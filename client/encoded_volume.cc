@@ -1,7 +1,5 @@
 #include "client/encoded_volume.h"
 
-#include <utility>
-
 #include "core/exec/context.h"
 #include "core/exec/status_macros.h"
 #include "core/io/volume_encoder.h"

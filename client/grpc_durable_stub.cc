@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <string>
-#include <utility>
 
-#include "absl/strings/str_cat.h"
 #include "bccskel/v1/job_service.grpc.pb.h"
 #include "bccskel/v1/volume_service.grpc.pb.h"
 #include "client/channel.h"

@@ -1,13 +1,11 @@
 #include "server/config.h"
 
 #include <algorithm>
-#include <optional>
 #include <thread>
 #include <utility>
 
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
-#include "absl/strings/str_join.h"
 #include "core/exec/machine_memory.h"
 #include "core/version/version.h"
 #include "proto/address/address.h"

@@ -16,7 +16,6 @@
 #include <cstring>
 #include <utility>
 
-#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"
 #include "proto/address/address.h"

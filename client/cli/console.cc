@@ -6,20 +6,16 @@
 #include <sys/signalfd.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
 #include <variant>
-#include <vector>
 
 #include "client/cli/arguments.h"
 #include "client/cli/progress_bar.h"
 #include "client/endpoint.h"
-#include "client/export/skeleton_file.h"
-#include "core/exec/status_macros.h"
 #include "proto/wire/error_details.h"
 
 namespace bccskel::cli {

@@ -5,12 +5,9 @@
 #include <array>
 #include <bit>
 #include <charconv>
-#include <functional>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "absl/strings/ascii.h"

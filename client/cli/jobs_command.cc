@@ -1,12 +1,10 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <ctime>
 #include <string>
 #include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
-#include "absl/time/time.h"
 #include "client/cli/arguments.h"
 #include "client/cli/common_options.h"
 #include "client/cli/console.h"

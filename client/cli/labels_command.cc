@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <iterator>
 #include <memory>
-#include <optional>
 #include <set>
 #include <stop_token>
 #include <string>

@@ -6,7 +6,6 @@
 #include <condition_variable>
 #include <cstdio>
 #include <mutex>
-#include <utility>
 
 #include "absl/strings/str_format.h"
 #include "client/export/picture/caption.h"

@@ -15,7 +15,6 @@
 #include "client/export/picture/svg.h"
 #include "client/export/text.h"
 #include "client/view/display_surface.h"
-#include "core/exec/status_macros.h"
 
 namespace bccskel::cli {
 namespace {

@@ -1,10 +1,8 @@
 #include "client/cli/summaries.h"
 
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <optional>
 #include <string_view>
 #include <utility>

@@ -11,7 +11,6 @@
 #include "client/export/picture/caption.h"
 #include "client/export/text.h"
 #include "client/view/page.h"
-#include "core/exec/status_macros.h"
 
 namespace bccskel::cli {
 namespace {

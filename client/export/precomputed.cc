@@ -14,7 +14,6 @@
 #include <fstream>
 #include <limits>
 #include <map>
-#include <optional>
 #include <string_view>
 #include <system_error>
 #include <utility>

@@ -1,9 +1,7 @@
 #include "client/mpi/file_folder.h"
 
-#include <cerrno>
 #include <filesystem>
 #include <fstream>
-#include <string_view>
 #include <system_error>
 
 #include "client/export/atomic_file.h"

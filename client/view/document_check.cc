@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"

@@ -1,6 +1,5 @@
 #include "core/certificate/brick_components.h"
 
-#include <bit>
 #include <vector>
 
 #undef HWY_TARGET_INCLUDE

@@ -1,5 +1,3 @@
-#include <array>
-#include <bit>
 #include <optional>
 
 #include "core/certificate/brick_sum.h"

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cstring>
 
 #include "core/distance/chamfer_rows.h"
 #include "core/distance/side_runs.h"

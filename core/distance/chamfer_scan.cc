@@ -1,7 +1,6 @@
 #include "core/distance/chamfer_scan.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstring>

@@ -1,6 +1,5 @@
 #include "core/distance/euclidean_parts.h"
 
-#include <array>
 #include <bit>
 #include <numeric>
 #include <optional>

@@ -4,7 +4,6 @@
 #include <limits>
 #include <numeric>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "core/distance/border_bricks.h"

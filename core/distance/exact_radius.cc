@@ -7,7 +7,6 @@
 #include <optional>
 #include <span>
 #include <tuple>
-#include <utility>
 
 #include "core/exec/status_macros.h"
 #include "core/lattice/directions.h"

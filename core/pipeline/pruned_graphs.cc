@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 #include <utility>
 #include <vector>
 
 #include "core/exec/status_macros.h"
-#include "core/exec/stop_poll.h"
 #include "core/pruning/branch_walk.h"
 #include "core/pruning/point_table.h"
 #include "core/pruning/simple_points.h"

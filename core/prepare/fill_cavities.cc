@@ -1,7 +1,6 @@
 #include "core/prepare/fill_cavities.h"
 
 #include <algorithm>
-#include <iterator>
 #include <optional>
 #include <vector>
 

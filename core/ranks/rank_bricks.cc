@@ -1,7 +1,6 @@
 #include "core/ranks/rank_bricks.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <numeric>
 #include <utility>

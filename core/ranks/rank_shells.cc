@@ -1,7 +1,6 @@
 #include "core/ranks/rank_shells.h"
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 #include <vector>
 

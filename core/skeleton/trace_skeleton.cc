@@ -7,7 +7,6 @@
 #include "core/skeleton/trace_skeleton.h"
 
 #include <algorithm>
-#include <functional>
 #include <map>
 #include <numeric>
 #include <span>

@@ -1,6 +1,5 @@
 #include "core/thinning/mark_removable.h"
 
-#include <algorithm>
 #include <utility>
 
 #undef HWY_TARGET_INCLUDE

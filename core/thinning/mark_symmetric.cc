@@ -1,7 +1,5 @@
 #include "core/thinning/mark_symmetric.h"
 
-#include <algorithm>
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/thinning/mark_symmetric.cc"
 // Compiles the rest of this file once per instruction set, so it comes before other Highway

@@ -1,7 +1,6 @@
 #include "proto/address/address.h"
 
 #include <algorithm>
-#include <cstddef>
 
 #include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"

@@ -5,7 +5,6 @@
 #include <deque>
 #include <iterator>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "core/io/encoded_body.h"

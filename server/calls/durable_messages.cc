@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <iterator>
-#include <optional>
 #include <string>
 #include <utility>
 #include <variant>

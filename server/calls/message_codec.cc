@@ -1,8 +1,6 @@
 #include "server/calls/message_codec.h"
 
-#include <algorithm>
 #include <string>
-#include <utility>
 
 #include "core/exec/status_macros.h"
 #include "core/pipeline/canonical_options.h"

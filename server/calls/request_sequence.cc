@@ -1,7 +1,6 @@
 #include "server/calls/request_sequence.h"
 
 #include <string>
-#include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "core/exec/status_macros.h"

@@ -1,7 +1,6 @@
 #include "server/durable/upload_table.h"
 
 #include "absl/strings/str_cat.h"
-#include "core/exec/status_macros.h"
 #include "server/errors/call_error.h"
 
 namespace bccskel::server {

@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "absl/strings/ascii.h"
-#include "absl/strings/match.h"
 #include "core/exec/status_macros.h"
 
 namespace bccskel::server {

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "absl/status/status.h"
-#include "core/exec/status_macros.h"
 #include "server/jobs/job_memory.h"
 
 namespace bccskel::server {

@@ -9,7 +9,6 @@
 #include <functional>
 #include <numbers>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "client/export/branch_table.h"

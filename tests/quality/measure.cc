@@ -1,7 +1,6 @@
 #include "tests/quality/measure.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 

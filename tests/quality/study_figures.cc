@@ -1,5 +1,3 @@
-#include <cstdio>
-#include <vector>
 
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"

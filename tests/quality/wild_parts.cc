@@ -1,7 +1,6 @@
 #include "tests/quality/wild_parts.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace bccskel::quality {
 namespace {

@@ -10,7 +10,6 @@
 #include <memory>
 #include <string>
 #include <thread>
-#include <utility>
 
 #include "bccskel/v1/server_service.grpc.pb.h"
 #include "core/import/shapes/shapes.h"

@@ -1,9 +1,7 @@
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <chrono>
 #include <limits>
-#include <string>
 
 #include "server/settings/setting.h"
 

@@ -8,7 +8,6 @@
 #include <string>
 
 #include "server/identity/callers.h"
-#include "tests/server/support/running_server.h"
 #include "tests/support/temporary_folder.h"
 
 namespace bccskel::server {

@@ -1,7 +1,6 @@
 #include "tests/support/reference_mask.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdlib>
 #include <random>
 

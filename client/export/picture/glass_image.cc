@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <span>
 
 #include "client/export/picture/glass_color.h"
 #include "core/exec/status_macros.h"

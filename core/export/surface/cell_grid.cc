@@ -1,7 +1,6 @@
 #include "core/export/surface/cell_grid.h"
 
 #include <algorithm>
-#include <bit>
 #include <span>
 
 #include "core/exec/status_macros.h"

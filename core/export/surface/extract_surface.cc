@@ -1,7 +1,5 @@
-#include <algorithm>
 #include <array>
 #include <limits>
-#include <span>
 #include <utility>
 
 #include "absl/strings/str_format.h"

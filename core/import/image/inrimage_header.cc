@@ -1,5 +1,4 @@
 // Inrimage: keys and values in a block that ends with "##}".
-#include <optional>
 #include <string>
 
 #include "absl/strings/str_format.h"

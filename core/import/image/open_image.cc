@@ -7,7 +7,6 @@
 #include <functional>
 #include <new>
 #include <optional>
-#include <span>
 #include <system_error>
 #include <utility>
 #include <vector>

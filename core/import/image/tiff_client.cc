@@ -4,11 +4,8 @@
 #include <array>
 #include <cstdarg>
 #include <cstdio>
-#include <limits>
 #include <span>
 #include <utility>
-
-#include "absl/strings/str_format.h"
 
 namespace bccskel {
 

@@ -1,7 +1,6 @@
 #include "core/import/image/tiff_stack.h"
 
 #include <algorithm>
-#include <utility>
 #include <vector>
 
 #include "absl/strings/str_format.h"
@@ -9,7 +8,6 @@
 #include "core/import/image/axis_units.h"
 #include "core/import/image/header_text.h"
 #include "core/import/image/image_choice.h"
-#include "core/lattice/length_unit.h"
 
 namespace bccskel {
 namespace {

@@ -1,7 +1,5 @@
 // DGtal's .vol: keys and values up to a line with a dot; version 3 is compressed by zlib.
 #include <array>
-#include <optional>
-#include <string>
 
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"

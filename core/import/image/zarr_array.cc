@@ -1,6 +1,5 @@
 // .zarray of Zarr 2, and what both versions share.
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <limits>
 #include <numeric>

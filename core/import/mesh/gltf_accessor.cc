@@ -1,7 +1,6 @@
 #include "core/import/mesh/gltf_accessor.h"
 
 #include <algorithm>
-#include <bit>
 #include <optional>
 
 #include "absl/strings/str_format.h"

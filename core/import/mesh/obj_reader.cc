@@ -3,10 +3,8 @@
 
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <vector>
 
-#include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"
 #include "core/import/mesh/mesh_assembler.h"
 #include "core/import/mesh/mesh_readers.h"

@@ -4,9 +4,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <cstring>
 #include <optional>
-#include <string>
 
 #include "absl/strings/str_format.h"
 #include "core/exec/status_macros.h"

@@ -8,7 +8,6 @@
 
 #include "absl/strings/ascii.h"
 #include "absl/strings/str_format.h"
-#include "core/exec/status_macros.h"
 #include "core/import/mesh/text_scanner.h"
 
 namespace bccskel {

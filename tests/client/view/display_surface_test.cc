@@ -1,6 +1,5 @@
 #include "client/view/display_surface.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <span>

@@ -1,6 +1,5 @@
 #include "client/view/packed_numbers.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <zlib.h>
 

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <string>
-#include <tuple>
 
 #include "core/io/volume_decoder.h"
 #include "core/io/volume_digest.h"

@@ -8,7 +8,6 @@
 #include <numbers>
 #include <utility>
 
-#include "core/labels/convert_label.h"
 #include "tests/core/labels/voxel_figure.h"
 
 namespace bccskel {

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstdint>
-#include <vector>
 
 #include "core/pipeline/presets.h"
 #include "tests/core/labels/voxel_figure.h"

@@ -1,7 +1,6 @@
 // The whole path on meshes of others whose topology is known: see MANIFEST.md beside them.
 #include <gtest/gtest.h>
 
-#include <optional>
 #include <string>
 #include <thread>
 #include <vector>

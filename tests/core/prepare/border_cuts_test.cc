@@ -8,7 +8,6 @@
 
 #include "core/exec/machine_memory.h"
 #include "core/prepare/beyond_border.h"
-#include "tests/support/contexts.h"
 #include "tests/support/volume_where.h"
 
 namespace bccskel {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <set>
-#include <utility>
 
 #include "tests/support/reference_betti.h"
 #include "tests/support/reference_point_set.h"

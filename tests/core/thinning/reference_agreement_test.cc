@@ -1,7 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <ostream>
 #include <vector>
 
 #include "core/thinning/thinning.h"

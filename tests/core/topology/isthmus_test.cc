@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <map>
 #include <utility>
 
 #include "core/topology/neighborhood.h"

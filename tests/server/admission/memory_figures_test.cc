@@ -5,8 +5,6 @@
 
 #include <atomic>
 #include <cstdlib>
-#include <functional>
-#include <limits>
 #include <new>
 #include <random>
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <random>
 #include <string>
-#include <vector>
 
 #include "proto/wire/error_details.h"
 #include "tests/server/support/declared_volume.h"

@@ -7,7 +7,6 @@
 #include <optional>
 #include <semaphore>
 #include <string>
-#include <thread>
 #include <utility>
 
 #include "proto/wire/error_details.h"

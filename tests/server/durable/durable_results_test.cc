@@ -5,7 +5,6 @@
 #include <chrono>
 #include <fstream>
 #include <string>
-#include <vector>
 
 #include "server/errors/call_error.h"
 #include "server/store/file_io.h"

@@ -1,7 +1,5 @@
 #include "tests/server/durable/fake_runner.h"
 
-#include <cstdlib>
-#include <thread>
 #include <utility>
 
 #include "absl/strings/numbers.h"

@@ -1,7 +1,5 @@
 #include "tests/server/support/declared_volume.h"
 
-#include <utility>
-
 #include "core/digest/sha256.h"
 #include "core/import/shapes/shapes.h"
 #include "core/io/volume_encoder.h"

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 #include <png.h>
 
-#include <utility>
 #include <vector>
 
 #include "client/export/json.h"

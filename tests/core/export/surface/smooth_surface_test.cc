@@ -1,6 +1,5 @@
 #include "core/export/surface/smooth_surface.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,6 +1,5 @@
 // Images written by programs of others, at the time of the test, are read as what they were made
 // from.
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 

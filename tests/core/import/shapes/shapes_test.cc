@@ -3,9 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cctype>
 #include <limits>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>

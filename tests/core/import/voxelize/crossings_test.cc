@@ -1,6 +1,5 @@
 #include "core/import/voxelize/crossings.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

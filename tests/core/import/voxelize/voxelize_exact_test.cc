@@ -2,7 +2,6 @@
 // independent ray in another direction.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
