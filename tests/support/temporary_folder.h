@@ -4,8 +4,10 @@
 #include <cstddef>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <iterator>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 namespace bccskel::test {
@@ -25,6 +27,13 @@ class TemporaryFolder {
 
   const std::string& path() const { return path_; }
   std::string operator/(const std::string& name) const { return path_ + "/" + name; }
+  // Writes a file, in folders that are made for it, and returns its path.
+  std::string Write(const std::string& name, std::string_view bytes) const {
+    const std::filesystem::path file = *this / name;
+    std::filesystem::create_directories(file.parent_path());
+    std::ofstream(file, std::ios::binary) << bytes;
+    return file.string();
+  }
   // Of files and folders right in it.
   size_t Count() const {
     return static_cast<size_t>(std::distance(std::filesystem::directory_iterator(path_), {}));
@@ -33,6 +42,11 @@ class TemporaryFolder {
  private:
   std::string path_;
 };
+
+inline std::string BytesOfFile(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
 
 }  // namespace bccskel::test
 

@@ -5,8 +5,6 @@
 
 #include <csignal>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "tests/support/temporary_folder.h"
 
@@ -14,11 +12,6 @@ namespace bccskel::exporting {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string ReadBack(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 // Files may grow to no more than a size; a write beyond fails as on a full disk.
 class FileSizeLimit {
@@ -46,14 +39,14 @@ class AtomicFileTest : public testing::Test {
 TEST_F(AtomicFileTest, WritesAllBytesAndLeavesNothingElse) {
   const std::string bytes("a\0b\n", 4);
   ASSERT_TRUE(WriteFileAtomically(folder_ / "new", bytes).ok());
-  EXPECT_EQ(ReadBack(folder_ / "new"), bytes);
+  EXPECT_EQ(test::BytesOfFile(folder_ / "new"), bytes);
   EXPECT_EQ(folder_.Count(), 1);
 }
 
 TEST_F(AtomicFileTest, ReplacesAFile) {
   ASSERT_TRUE(WriteFileAtomically(folder_ / "file", "old and long").ok());
   ASSERT_TRUE(WriteFileAtomically(folder_ / "file", "new").ok());
-  EXPECT_EQ(ReadBack(folder_ / "file"), "new");
+  EXPECT_EQ(test::BytesOfFile(folder_ / "file"), "new");
 }
 
 TEST_F(AtomicFileTest, AFolderThatIsNotThereIsNamed) {
@@ -67,7 +60,7 @@ TEST_F(AtomicFileTest, ANameMayBeAsLongAsTheFileSystemAllows) {
   const std::string path = folder_ / (std::string(251, 'a') + ".swc");
   EXPECT_TRUE(CheckWritable(path).ok()) << CheckWritable(path);
   EXPECT_TRUE(WriteFileAtomically(path, "bytes").ok());
-  EXPECT_EQ(ReadBack(path), "bytes");
+  EXPECT_EQ(test::BytesOfFile(path), "bytes");
   EXPECT_EQ(folder_.Count(), 1);
 }
 
@@ -81,7 +74,7 @@ TEST_F(AtomicFileTest, ALinkStaysALink) {
   fs::create_symlink("file", folder_ / "link");
   ASSERT_TRUE(WriteFileAtomically(folder_ / "link", "new").ok());
   EXPECT_TRUE(fs::is_symlink(folder_ / "link"));
-  EXPECT_EQ(ReadBack(folder_ / "file"), "new");
+  EXPECT_EQ(test::BytesOfFile(folder_ / "file"), "new");
 }
 
 TEST_F(AtomicFileTest, AFailureLeavesTheOldFileAndNoDraft) {
@@ -89,7 +82,7 @@ TEST_F(AtomicFileTest, AFailureLeavesTheOldFileAndNoDraft) {
   const FileSizeLimit limit(1000);
   const absl::Status status = WriteFileAtomically(folder_ / "file", std::string(5000, 'x'));
   EXPECT_FALSE(status.ok());
-  EXPECT_EQ(ReadBack(folder_ / "file"), "old");
+  EXPECT_EQ(test::BytesOfFile(folder_ / "file"), "old");
   EXPECT_EQ(folder_.Count(), 1);
 }
 
@@ -106,7 +99,7 @@ TEST_F(AtomicFileTest, AStopLeavesTheOldFileAndNoDraft) {
   stop.request_stop();
   const absl::Status status = WriteFileAtomically(folder_ / "file", "new", stop.get_token());
   EXPECT_TRUE(absl::IsCancelled(status)) << status;
-  EXPECT_EQ(ReadBack(folder_ / "file"), "old");
+  EXPECT_EQ(test::BytesOfFile(folder_ / "file"), "old");
   EXPECT_EQ(folder_.Count(), 1);
 }
 

@@ -31,8 +31,7 @@ class SkeletonFileTest : public testing::Test {
   std::string Written(const std::string& name, const Sample& sample) const {
     const auto note = WriteSkeletonFile(folder_ / name, {sample.result, sample.object, "A title"});
     EXPECT_TRUE(note.ok()) << note.status();
-    std::ifstream file(folder_ / name, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
+    return test::BytesOfFile(folder_ / name);
   }
 
   const test::TemporaryFolder folder_;

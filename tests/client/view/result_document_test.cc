@@ -3,10 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
-
 #include "client/export/json.h"
 #include "tests/client/export/sample_skeletons.h"
+#include "tests/support/temporary_folder.h"
 
 namespace bccskel::view {
 namespace {
@@ -189,8 +188,8 @@ TEST(ResultDocumentTest, NamesThePlaceOfADefect) {
 }
 
 TEST(ResultDocumentTest, ErrorsOfAFileNameIt) {
-  const std::string path = testing::TempDir() + "bccskel_broken.json";
-  std::ofstream(path) << "{";
+  const test::TemporaryFolder folder;
+  const std::string path = folder.Write("broken.json", "{");
   EXPECT_THAT(std::string(ReadResultDocument(path).status().message()), HasSubstr(path));
   EXPECT_EQ(ReadResultDocument(path + ".none").status().code(), absl::StatusCode::kNotFound);
 }

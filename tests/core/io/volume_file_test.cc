@@ -7,8 +7,6 @@
 #include <array>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,17 +25,12 @@ using testing::HasSubstr;
 class VolumeFile : public testing::Test {
  protected:
   std::string Path(const std::string& name) const { return folder_ / name; }
-  void Put(const std::string& name, const std::string& bytes) const {
-    std::ofstream(Path(name), std::ios::binary) << bytes;
-  }
+  void Put(const std::string& name, const std::string& bytes) const { folder_.Write(name, bytes); }
   void PutVolume(const std::string& name, const Volume& volume, VolumeEncoding encoding,
                  VolumeCompression compression) const {
     Put(name, *EncodeVolume(volume, {.encoding = encoding, .compression = compression}));
   }
-  std::string Get(const std::string& name) const {
-    std::ifstream file(Path(name), std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
+  std::string Get(const std::string& name) const { return test::BytesOfFile(Path(name)); }
 
   const test::TemporaryFolder folder_;
 };

@@ -2,17 +2,14 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 #include <zlib.h>
 
 #include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 
 #include "core/import/image/foreground.h"
 #include "core/import/image/open_image.h"
+#include "tests/support/temporary_folder.h"
 
 namespace bccskel {
 namespace {
@@ -21,19 +18,17 @@ using testing::HasSubstr;
 
 class WrittenNrrd : public ::testing::Test {
  protected:
-  void TearDown() override { std::filesystem::remove(path_); }
   void Write(const MaskGrid& grid, const ImageWorld& world, const SparseImage& image) const {
     const absl::StatusOr<std::string> bytes = NrrdBytes(grid, world, image);
     ASSERT_TRUE(bytes.ok()) << bytes.status();
-    std::ofstream(path_, std::ios::binary) << *bytes;
+    folder_.Write("written.nrrd", *bytes);
   }
-  std::string path_ = ::testing::TempDir() + "/written_" + std::to_string(::getpid()) + ".nrrd";
+  const test::TemporaryFolder folder_;
+  const std::string path_ = folder_ / "written.nrrd";
 };
 
 std::string Unzipped(const std::string& path, size_t offset, size_t bytes) {
-  std::ifstream file(path, std::ios::binary);
-  file.seekg(static_cast<std::streamoff>(offset));
-  std::string packed((std::istreambuf_iterator<char>(file)), {});
+  std::string packed = test::BytesOfFile(path).substr(offset);
   std::string plain(bytes + 1, '\0');
   z_stream stream = {};
   inflateInit2(&stream, 15 + 16);
@@ -51,8 +46,7 @@ TEST_F(WrittenNrrd, HoldsHeaderAndVoxels) {
   const MaskGrid grid = {5, 3, 2, {{4, 2, 3}, {7, 8, 9}, {0, -1, 0, 1, 0, 0, 0, 0, 1}}};
   const SparseImage image = {{{0, 1, 1, 3}, 70000}, {{1, 2, 4, 5}, 2}};
   Write(grid, {}, image);
-  std::ifstream file(path_, std::ios::binary);
-  const std::string text((std::istreambuf_iterator<char>(file)), {});
+  const std::string text = test::BytesOfFile(path_);
   const size_t data = text.find("\n\n") + 2;
   EXPECT_THAT(text.substr(0, data), HasSubstr("sizes: 5 3 2\n"));
   EXPECT_THAT(text.substr(0, data), HasSubstr("space directions: (0,4,0) (-2,0,0) (0,0,3)\n"));

@@ -2,14 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <bit>
-#include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
 #include "core/import/mesh/mesh_file.h"
 #include "tests/core/import/mesh/mesh_bytes.h"
 #include "tests/core/import/mesh/mesh_shapes.h"
+#include "tests/support/temporary_folder.h"
 
 namespace bccskel {
 namespace {
@@ -74,17 +73,14 @@ TEST(FreeSurferReader, NamesWhatIsWrong) {
 }
 
 TEST(FreeSurferReader, IsChosenByTheContentOfAPath) {
-  const std::filesystem::path folder = ::testing::TempDir() + "bccskel_freesurfer";
-  std::filesystem::create_directories(folder);
-  std::ofstream(folder / "Lh.white", std::ios::binary) << FreeSurferFile(BoxOfBrain());
-  std::ofstream(folder / "Lh.text", std::ios::binary) << "text";
-  EXPECT_TRUE(IsMeshPath((folder / "Lh.white").string()));
-  EXPECT_FALSE(IsMeshPath((folder / "Lh.text").string()));
-  EXPECT_FALSE(IsMeshPath(folder.string()));
-  const auto mesh = ReadMeshFile((folder / "Lh.white").string());
+  const test::TemporaryFolder folder;
+  const std::string surface = folder.Write("Lh.white", FreeSurferFile(BoxOfBrain()));
+  EXPECT_TRUE(IsMeshPath(surface));
+  EXPECT_FALSE(IsMeshPath(folder.Write("Lh.text", "text")));
+  EXPECT_FALSE(IsMeshPath(folder.path()));
+  const auto mesh = ReadMeshFile(surface);
   ASSERT_TRUE(mesh.ok()) << mesh.status();
   EXPECT_EQ(*mesh, BoxOfBrain());
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

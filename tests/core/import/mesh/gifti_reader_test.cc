@@ -5,11 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "absl/strings/escaping.h"
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_replace.h"
 #include "core/import/mesh/mesh_file.h"
 #include "tests/core/import/mesh/mesh_bytes.h"
 #include "tests/core/import/mesh/mesh_shapes.h"
+#include "tests/support/deflated.h"
 
 namespace bccskel {
 namespace {
@@ -30,9 +32,10 @@ std::string GiftiArray(const GiftiLayout& layout, const char* intent, const char
                        const std::vector<Number>& numbers) {
   const std::string bytes = testing::BytesOf(numbers, layout.order);
   const std::string encoding = layout.encoding;
-  const std::string data = encoding == "ASCII"          ? testing::TextOf(numbers)
-                           : encoding == "Base64Binary" ? testing::Base64(bytes)
-                                                        : testing::Base64(testing::Deflated(bytes));
+  const std::string data = encoding == "ASCII" ? testing::TextOf(numbers)
+                           : encoding == "Base64Binary"
+                               ? absl::Base64Escape(bytes)
+                               : absl::Base64Escape(testing::Deflated(bytes));
   return absl::StrFormat(
       "<DataArray Intent='NIFTI_INTENT_%s' DataType='NIFTI_TYPE_%s' "
       "ArrayIndexingOrder='RowMajorOrder' Dimensionality='2' Dim0='%d' Dim1='3' Encoding='%s' "

@@ -13,6 +13,7 @@
 #include "tests/core/import/mesh/gltf_scene.h"
 #include "tests/core/import/mesh/mesh_bytes.h"
 #include "tests/core/import/mesh/mesh_shapes.h"
+#include "tests/support/temporary_folder.h"
 
 namespace bccskel {
 namespace {
@@ -189,19 +190,18 @@ TEST(GltfReader, SharesThePointsOfPrimitives) {
 class GltfFilesTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    std::filesystem::create_directories(folder_ + "/inside/parts");
     scene_ = SceneOf(GltfBox());
-    for (const char* name : {"/outside.bin", "/inside/a b.bin", "/inside/parts/c.bin"}) {
-      testing::WriteTemporary("gltf" + std::string(name), scene_.binary);
+    for (const char* name : {"outside.bin", "inside/a b.bin", "inside/parts/c.bin"}) {
+      folder_.Write(name, scene_.binary);
     }
   }
 
   absl::StatusOr<TriangleMesh> ReadWith(const std::string& uri) {
     scene_.json["buffers"] = List(Json{{"byteLength", scene_.binary.size()}, {"uri", uri}});
-    return ReadMeshFile(testing::WriteTemporary("gltf/inside/a.gltf", scene_.json.dump()));
+    return ReadMeshFile(folder_.Write("inside/a.gltf", scene_.json.dump()));
   }
 
-  std::string folder_ = ::testing::TempDir() + "gltf";
+  const test::TemporaryFolder folder_;
   Scene scene_;
 };
 
@@ -215,9 +215,9 @@ TEST_F(GltfFilesTest, ReadsBuffersBesideTheFile) {
 
 TEST_F(GltfFilesTest, ReadsNoOtherFiles) {
   std::error_code ignored;
-  std::filesystem::create_symlink("../outside.bin", folder_ + "/inside/link.bin", ignored);
+  std::filesystem::create_symlink("../outside.bin", folder_ / "inside/link.bin", ignored);
   for (const std::string& uri : {std::string("../outside.bin"), std::string("%2e%2e/outside.bin"),
-                                 folder_ + "/outside.bin", std::string("link.bin")}) {
+                                 folder_ / "outside.bin", std::string("link.bin")}) {
     const auto mesh = ReadWith(uri);
     EXPECT_EQ(mesh.status().code(), absl::StatusCode::kInvalidArgument) << uri;
     EXPECT_THAT(std::string(mesh.status().message()), HasSubstr("only files in the folder"));

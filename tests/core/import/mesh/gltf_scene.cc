@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "absl/strings/escaping.h"
 #include "tests/core/import/mesh/mesh_bytes.h"
 
 namespace bccskel::testing {
@@ -17,7 +18,8 @@ Scene SceneOf(const TriangleMesh& mesh) {
 }
 
 std::string ToGltf(Scene scene) {
-  const std::string uri = "data:application/octet-stream;base64," + Base64(scene.binary);
+  const std::string uri =
+      "data:application/octet-stream;base64," + absl::Base64Escape(scene.binary);
   scene.json["buffers"] = List(Json{{"byteLength", scene.binary.size()}, {"uri", uri}});
   return scene.json.dump();
 }

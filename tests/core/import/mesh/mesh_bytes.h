@@ -50,10 +50,6 @@ std::string TextOf(const std::vector<Number>& numbers) {
   return text;
 }
 
-std::string Base64(const std::string& bytes);
-// A zlib stream.
-std::string Deflated(const std::string& bytes);
-
 }  // namespace bccskel::testing
 
 #endif  // BCCSKEL_TESTS_CORE_IMPORT_MESH_MESH_BYTES_H_

@@ -6,6 +6,8 @@
 #include <string>
 
 #include "tests/core/import/mesh/mesh_shapes.h"
+#include "tests/support/deflated.h"
+#include "tests/support/temporary_folder.h"
 
 namespace bccskel {
 namespace {
@@ -14,6 +16,10 @@ using ::testing::HasSubstr;
 
 // Coordinates that no float holds.
 TriangleMesh DoubleBox() { return testing::Box({0.1, 0.2, 0.3}, {1e9 + 0.1, 1.7, 2.3e-5}); }
+
+std::string Gzipped(const std::string& bytes) {
+  return testing::Deflated(bytes, testing::Wrapping::kGzip);
+}
 
 struct Format {
   const char* name;
@@ -33,9 +39,9 @@ TEST_P(DoubleFormatRoundTrip, KeepsEveryBitOfTheCoordinates) {
 }
 
 TEST_P(DoubleFormatRoundTrip, IsReadFromAGzipFileOfAnyName) {
-  const std::string path =
-      testing::WriteTemporary("compressed.bin", testing::Gzip(GetParam().write(DoubleBox())));
-  const auto mesh = ReadMeshFile(path);
+  const test::TemporaryFolder folder;
+  const auto mesh =
+      ReadMeshFile(folder.Write("compressed.bin", Gzipped(GetParam().write(DoubleBox()))));
   ASSERT_TRUE(mesh.ok()) << mesh.status();
   EXPECT_EQ(testing::Unshared(*mesh), testing::Unshared(DoubleBox()));
 }
@@ -185,17 +191,18 @@ TEST(MeshFile, RefusesMoreThanItsLimits) {
 }
 
 TEST(MeshFile, StopsExpandingGzipAtItsLimit) {
-  const std::string bomb = testing::Gzip(std::string(20'000'000, '#'));
+  const std::string bomb = Gzipped(std::string(20'000'000, '#'));
   ASSERT_LT(bomb.size(), 40'000u);
-  const std::string path = testing::WriteTemporary("bomb.obj.gz", bomb);
-  const auto mesh = ReadMeshFile(path, {.max_file_bytes = 1'000'000});
+  const test::TemporaryFolder folder;
+  const auto mesh = ReadMeshFile(folder.Write("bomb.obj.gz", bomb), {.max_file_bytes = 1'000'000});
   EXPECT_EQ(mesh.status().code(), absl::StatusCode::kResourceExhausted) << mesh.status();
 }
 
 TEST(MeshFile, RefusesACutOrDamagedGzipStream) {
-  std::string bytes = testing::Gzip(testing::ToOff(testing::Sphere({0, 0, 0}, 1)));
-  const auto read = [](const std::string& b) {
-    return ReadMeshFile(testing::WriteTemporary("damaged.off.gz", b)).status();
+  std::string bytes = Gzipped(testing::ToOff(testing::Sphere({0, 0, 0}, 1)));
+  const test::TemporaryFolder folder;
+  const auto read = [&folder](const std::string& b) {
+    return ReadMeshFile(folder.Write("damaged.off.gz", b)).status();
   };
   EXPECT_EQ(read(bytes.substr(0, bytes.size() / 2)).code(), absl::StatusCode::kInvalidArgument);
   EXPECT_EQ(read(bytes.substr(0, bytes.size() - 1)).code(), absl::StatusCode::kInvalidArgument);

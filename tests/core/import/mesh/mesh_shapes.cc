@@ -1,12 +1,8 @@
 #include "tests/core/import/mesh/mesh_shapes.h"
 
-#include <gtest/gtest.h>
-#include <zlib.h>
-
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
 #include <functional>
 #include <numbers>
 
@@ -246,21 +242,6 @@ std::string ToPly(const TriangleMesh& mesh, PlyKind kind) {
     for (uint32_t corner : {a, b, c}) AppendRaw(bytes, corner, 4, kind);
   }
   return bytes;
-}
-
-std::string Gzip(const std::string& bytes) {
-  const std::string path = ::testing::TempDir() + "bccskel_mesh_shapes.gz";
-  const gzFile file = gzopen(path.c_str(), "wb");
-  gzwrite(file, bytes.data(), static_cast<unsigned>(bytes.size()));
-  gzclose(file);
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-std::string WriteTemporary(const std::string& name, const std::string& bytes) {
-  const std::string path = ::testing::TempDir() + name;
-  std::ofstream(path, std::ios::binary) << bytes;
-  return path;
 }
 
 }  // namespace bccskel::testing

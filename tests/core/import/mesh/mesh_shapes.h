@@ -38,10 +38,6 @@ std::string ToAsciiStl(const TriangleMesh& mesh);
 std::string ToBinaryStl(const TriangleMesh& mesh);
 enum class PlyKind { kAscii, kLittleEndian, kBigEndian };
 std::string ToPly(const TriangleMesh& mesh, PlyKind kind);
-std::string Gzip(const std::string& bytes);
-
-// Writes a file into the test's temporary folder and returns its path.
-std::string WriteTemporary(const std::string& name, const std::string& bytes);
 
 }  // namespace bccskel::testing
 

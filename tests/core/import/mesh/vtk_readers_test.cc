@@ -5,11 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "absl/strings/escaping.h"
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_replace.h"
 #include "core/import/mesh/mesh_file.h"
 #include "tests/core/import/mesh/mesh_bytes.h"
 #include "tests/core/import/mesh/mesh_shapes.h"
+#include "tests/support/deflated.h"
 
 namespace bccskel {
 namespace {
@@ -187,7 +189,7 @@ class VtpWriter {
   // Blocks of 40 bytes, so that there are several and a part of one.
   std::string Encoded(const std::string& bytes, bool raw) const {
     const auto text = [&](const std::string& plain) {
-      return raw ? plain : testing::Base64(plain);
+      return raw ? plain : absl::Base64Escape(plain);
     };
     if (!layout_.zlib) return text(Words({bytes.size()}) + bytes);
     constexpr size_t kBlock = 40;
@@ -282,8 +284,8 @@ std::string DamagedVtp(const std::string& part, const std::string& by,
 std::string VtpBomb(uint32_t blocks, uint32_t size) {
   std::vector<uint32_t> header = {blocks, size, 0};
   header.insert(header.end(), blocks, 2);
-  const std::string bytes =
-      testing::Base64(testing::BytesOf(header)) + testing::Base64(std::string(2 * blocks, 'x'));
+  const std::string bytes = absl::Base64Escape(testing::BytesOf(header)) +
+                            absl::Base64Escape(std::string(2 * blocks, 'x'));
   return "<VTKFile type='PolyData' compressor='vtkZLibDataCompressor'><PolyData><Piece "
          "NumberOfPoints='1'><Points><DataArray type='Float32' format='binary'>" +
          bytes + "</DataArray></Points></Piece></PolyData></VTKFile>";
