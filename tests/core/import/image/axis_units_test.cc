@@ -60,35 +60,31 @@ std::string Nrrd(const std::string& sizes, const std::string& fields) {
 }
 
 TEST(AxisUnits, OfNrrdBelongToItsAxes) {
-  const auto image =
-      ReadBytes(Nrrd("3 2 2", "dimension: 3\nspacings: 200 200 0.5\nunits: \"nm\" \"nm\" \"um\""));
-  ASSERT_TRUE(image.ok()) << image.status();
-  EXPECT_EQ(image->info.unit, "nm");
-  EXPECT_THAT(image->info.placement.spacing, ElementsAre(200, 200, 500));
-  const auto component = ReadBytes(
-      Nrrd("1 3 2 2", "dimension: 4\nspacings: nan 1 1 0.5\nunits: \"\" \"mm\" \"mm\" \"cm\""));
-  ASSERT_TRUE(component.ok()) << component.status();
-  EXPECT_EQ(component->info.unit, "mm");
-  EXPECT_THAT(component->info.placement.spacing, ElementsAre(1, 1, 5));
-  const auto slice =
-      ReadBytes(Nrrd("3 4 1", "dimension: 3\nspacings: 1 1 nan\nunits: \"mm\" \"mm\" \"\""));
-  ASSERT_TRUE(slice.ok()) << slice.status();
-  EXPECT_EQ(slice->info.unit, "mm");
-  const auto series = ReadBytes(
-      Nrrd("3 2 2 1", "dimension: 4\nspacings: 1 1 1 1\nunits: \"mm\" \"mm\" \"mm\" \"s\""));
-  ASSERT_TRUE(series.ok()) << series.status();
-  EXPECT_EQ(series->info.unit, "mm");
+  const auto image = MustRead(
+      ReadBytes(Nrrd("3 2 2", "dimension: 3\nspacings: 200 200 0.5\nunits: \"nm\" \"nm\" \"um\"")));
+  EXPECT_EQ(image.info.unit, "nm");
+  EXPECT_THAT(image.info.placement.spacing, ElementsAre(200, 200, 500));
+  const auto component = MustRead(ReadBytes(
+      Nrrd("1 3 2 2", "dimension: 4\nspacings: nan 1 1 0.5\nunits: \"\" \"mm\" \"mm\" \"cm\"")));
+  EXPECT_EQ(component.info.unit, "mm");
+  EXPECT_THAT(component.info.placement.spacing, ElementsAre(1, 1, 5));
+  const auto slice = MustRead(
+      ReadBytes(Nrrd("3 4 1", "dimension: 3\nspacings: 1 1 nan\nunits: \"mm\" \"mm\" \"\"")));
+  EXPECT_EQ(slice.info.unit, "mm");
+  const auto series = MustRead(ReadBytes(
+      Nrrd("3 2 2 1", "dimension: 4\nspacings: 1 1 1 1\nunits: \"mm\" \"mm\" \"mm\" \"s\"")));
+  EXPECT_EQ(series.info.unit, "mm");
 }
 
 TEST(AxisUnits, OfNrrdsSpaceBelongToCoordinates) {
   const std::string fields =
       "dimension: 3\nspace: RAS\nspace directions: (0,0,1) (0,200,0) (300,0,0)\n"
       "space origin: (10,20,3)\n";
-  const auto image = ReadBytes(Nrrd("3 2 2", fields + "space units: \"nm\" \"nm\" \"um\""));
-  ASSERT_TRUE(image.ok()) << image.status();
-  EXPECT_EQ(image->info.unit, "nm");
-  EXPECT_THAT(image->info.placement.spacing, ElementsAre(1000, 200, 300));
-  EXPECT_THAT(image->info.placement.ToWorld(2, 2, 2), ElementsAre(310, 220, 4000));
+  const auto image =
+      MustRead(ReadBytes(Nrrd("3 2 2", fields + "space units: \"nm\" \"nm\" \"um\"")));
+  EXPECT_EQ(image.info.unit, "nm");
+  EXPECT_THAT(image.info.placement.spacing, ElementsAre(1000, 200, 300));
+  EXPECT_THAT(image.info.placement.ToWorld(2, 2, 2), ElementsAre(310, 220, 4000));
   const auto axes = ReadBytes(Nrrd("3 2 2", fields + "units: \"nm\" \"nm\" \"um\""));
   EXPECT_THAT(std::string(axes.status().message()), HasSubstr("state 'space units'"));
   const auto unknown = ReadBytes(Nrrd("3 2 2", fields + "space units: \"nm\" \"nm\" \"s\""));

@@ -10,6 +10,7 @@
 #include "absl/strings/str_format.h"
 #include "tests/core/import/image/dicom_files.h"
 #include "tests/core/import/image/image_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace bccskel {
 namespace {
@@ -49,15 +50,14 @@ TEST(Dicom, SlicesAreSortedByTheirPositions) {
   const ImageFolder folder("dicom");
   WriteSeries(folder, 4);
   folder.Write("notes.txt", "no DICOM");
-  const auto image = folder.Read();
-  ASSERT_TRUE(image.ok()) << image.status();
-  EXPECT_EQ(image->info.size, (ImageSize{kX, kY, 4}));
-  EXPECT_EQ(image->info.type, VoxelType::kUint16);
-  EXPECT_EQ(image->info.world, "LPS");
-  EXPECT_EQ(image->info.unit, "mm");
-  EXPECT_THAT(image->info.placement.spacing, ElementsAre(0.25, 0.5, 2));
-  EXPECT_THAT(image->info.placement.origin, ElementsAre(7, 8, 9));
-  EXPECT_EQ(image->values, CountedTo(4 * kX * kY));
+  const auto image = MustRead(folder.Read());
+  EXPECT_EQ(image.info.size, (ImageSize{kX, kY, 4}));
+  EXPECT_EQ(image.info.type, VoxelType::kUint16);
+  EXPECT_EQ(image.info.world, "LPS");
+  EXPECT_EQ(image.info.unit, "mm");
+  EXPECT_THAT(image.info.placement.spacing, ElementsAre(0.25, 0.5, 2));
+  EXPECT_THAT(image.info.placement.origin, ElementsAre(7, 8, 9));
+  EXPECT_EQ(image.values, CountedTo(4 * kX * kY));
 }
 
 TEST(Dicom, TheOrientationIsFoldedIn) {
@@ -67,9 +67,8 @@ TEST(Dicom, TheOrientationIsFoldedIn) {
     Put(slice, DCM_ImageOrientationPatient, "0\\-1\\0\\0\\0\\-1");
     Put(slice, DCM_ImagePositionPatient, Position({3.0 * z, 50, 60}));
   });
-  const auto image = folder.Read();
-  ASSERT_TRUE(image.ok()) << image.status();
-  const Placement& placement = image->info.placement;
+  const auto image = MustRead(folder.Read());
+  const Placement& placement = image.info.placement;
   EXPECT_THAT(placement.spacing, ElementsAre(0.25, 0.5, 3));
   const WorldPoint corner = placement.ToWorld(2 * 2, 2 * 1, 2 * 2);
   EXPECT_THAT(corner, Pointwise(DoubleNear(1e-9), {6.0, 50 - 0.5, 60 - 0.5}));
@@ -81,11 +80,10 @@ TEST(Dicom, RescaledValuesAreDoubles) {
     Put(slice, DCM_RescaleIntercept, "-1000");
     Put(slice, DCM_RescaleSlope, z == 0 ? "2" : "0.5");
   });
-  const auto image = folder.Read();
-  ASSERT_TRUE(image.ok()) << image.status();
-  EXPECT_EQ(image->info.type, VoxelType::kFloat64);
-  EXPECT_EQ(image->values[1], -998);
-  EXPECT_EQ(image->values[6], -997);
+  const auto image = MustRead(folder.Read());
+  EXPECT_EQ(image.info.type, VoxelType::kFloat64);
+  EXPECT_EQ(image.values[1], -998);
+  EXPECT_EQ(image.values[6], -997);
 }
 
 TEST(Dicom, CompressedSlicesAreExpanded) {
@@ -95,9 +93,8 @@ TEST(Dicom, CompressedSlicesAreExpanded) {
     Write(absl::StrFormat("%s/%d.dcm", folder.path(), z), Slice({0, 0, 1.0 * z}, 6 * z),
           EXS_RLELossless);
   }
-  const auto image = folder.Read();
-  ASSERT_TRUE(image.ok()) << image.status();
-  EXPECT_EQ(image->values, CountedTo(3 * kX * kY));
+  const auto image = MustRead(folder.Read());
+  EXPECT_EQ(image.values, CountedTo(3 * kX * kY));
 }
 
 TEST(Dicom, OneOfSeveralSeriesIsChosen) {
@@ -118,9 +115,8 @@ TEST(Dicom, OneOfSeveralSeriesIsChosen) {
   ImageOptions options;
   for (const auto& [choice, slices] : {std::pair{"3", 3}, {"8", 2}, {"1.2.3.5", 2}}) {
     options.series = choice;
-    const auto image = folder.Read(options);
-    ASSERT_TRUE(image.ok()) << image.status();
-    EXPECT_EQ(image->info.size.nz, slices);
+    const auto image = MustRead(folder.Read(options));
+    EXPECT_EQ(image.info.size.nz, slices);
   }
   options.series = "9";
   EXPECT_THAT(ErrorOf(folder, options), HasSubstr("'9' is no series of the folder: 3 'Thorax'"));
@@ -226,12 +222,11 @@ TEST(Dicom, AFileHoldsSeveralFrames) {
   Put(data, DCM_SOPClassUID, UID_EnhancedCTImageStorage);
   PutWords(data, words);
   Write(folder.path() + "/a.dcm", data);
-  const auto image = testing::ReadAll(OpenImage(folder.path() + "/a.dcm"));
-  ASSERT_TRUE(image.ok()) << image.status();
-  EXPECT_THAT(image->info.placement.spacing, ElementsAre(1, 1, 2));
-  EXPECT_EQ(image->values[0], 6);   // the second frame is the lowest
-  EXPECT_EQ(image->values[6], 12);  // then the third
-  EXPECT_EQ(image->values[12], 0);
+  const auto image = MustRead(testing::ReadAll(OpenImage(folder.path() + "/a.dcm")));
+  EXPECT_THAT(image.info.placement.spacing, ElementsAre(1, 1, 2));
+  EXPECT_EQ(image.values[0], 6);   // the second frame is the lowest
+  EXPECT_EQ(image.values[6], 12);  // then the third
+  EXPECT_EQ(image.values[12], 0);
 }
 
 struct SegmentFrame {
@@ -277,13 +272,12 @@ TEST(Dicom, NumbersOfSegmentsAreLabels) {
   const ImageFolder folder("dicom");
   // Heights 0, 2 (empty) and 4 mm.
   WriteSegmentation(folder, {{4, 5, "000011"}, {0, 1, "110000"}, {4, 300, "100000"}});
-  const auto image = folder.Read();
-  ASSERT_TRUE(image.ok()) << image.status();
-  EXPECT_EQ(image->info.format, "DICOM segmentation");
-  EXPECT_THAT(image->info.placement.spacing, ElementsAre(1, 1, 2));
-  EXPECT_THAT(image->values, ElementsAre(1, 1, 0, 0, 0, 0,  //
-                                         0, 0, 0, 0, 0, 0,  //
-                                         300, 0, 0, 0, 5, 5));
+  const auto image = MustRead(folder.Read());
+  EXPECT_EQ(image.info.format, "DICOM segmentation");
+  EXPECT_THAT(image.info.placement.spacing, ElementsAre(1, 1, 2));
+  EXPECT_THAT(image.values, ElementsAre(1, 1, 0, 0, 0, 0,  //
+                                        0, 0, 0, 0, 0, 0,  //
+                                        300, 0, 0, 0, 5, 5));
 }
 
 TEST(Dicom, SegmentsThatOverlapAreChosen) {
@@ -292,9 +286,8 @@ TEST(Dicom, SegmentsThatOverlapAreChosen) {
   EXPECT_THAT(ErrorOf(folder), HasSubstr("segments 1 and 2 overlap; choose one with --channel"));
   ImageOptions options;
   options.channel = 2;
-  const auto image = folder.Read(options);
-  ASSERT_TRUE(image.ok()) << image.status();
-  EXPECT_THAT(image->values, ElementsAre(0, 2, 2, 0, 0, 0));
+  const auto image = MustRead(folder.Read(options));
+  EXPECT_THAT(image.values, ElementsAre(0, 2, 2, 0, 0, 0));
   options.channel = 3;
   EXPECT_THAT(ErrorOf(folder, options), HasSubstr("no segment 3"));
   WriteSegmentation(folder, {{0, 1, "110000"}}, "FRACTIONAL");
@@ -304,8 +297,7 @@ TEST(Dicom, SegmentsThatOverlapAreChosen) {
 TEST(Dicom, DamagedFilesAreRefused) {
   const ImageFolder folder("dicom");
   const auto bytes_of = [&](const std::string& name) {
-    std::ifstream file(folder.path() + "/" + name, std::ios::binary);
-    return std::string(std::istreambuf_iterator<char>(file), {});
+    return test::BytesOfFile(folder.path() + "/" + name);
   };
   WriteSeries(folder, 1);
   const std::string slice = bytes_of("01");

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "tests/core/import/image/image_bytes.h"
+#include "tests/support/temporary_folder.h"
 
 namespace bccskel {
 namespace {
@@ -71,23 +72,19 @@ void ExpectImage(const testing::ReadImage& image, const Expected& expected) {
 class ForeignImages : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(ForeignImages, AreReadAsTheyWereMade) {
-  const auto folder = std::filesystem::path(testing::TemporaryPath(GetParam()));
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
+  const test::TemporaryFolder folder;
   const std::string command = std::string(BCCSKEL_PYTHON) + " -B " + BCCSKEL_FOREIGN_IMAGES + " " +
-                              GetParam() + " " + folder.string();
+                              GetParam() + " " + folder.path();
   const int status = std::system(command.c_str());
   if (WIFEXITED(status) && WEXITSTATUS(status) == 77) GTEST_SKIP() << GetParam() << " is missing";
   ASSERT_EQ(status, 0) << command;
-  const std::vector<Expected> list = ReadList(folder);
+  const std::vector<Expected> list = ReadList(folder.path());
   ASSERT_GE(list.size(), 10U);
   for (const Expected& expected : list) {
     SCOPED_TRACE(expected.name);
-    const auto image = testing::ReadAll(OpenImage(folder / expected.name));
-    ASSERT_TRUE(image.ok()) << image.status();
-    ExpectImage(*image, expected);
+    const auto image = MustRead(testing::ReadAll(OpenImage(folder / expected.name)));
+    ExpectImage(image, expected);
   }
-  std::filesystem::remove_all(folder);
 }
 
 INSTANTIATE_TEST_SUITE_P(Programs, ForeignImages,

@@ -2,8 +2,6 @@
 #define BCCSKEL_TESTS_CORE_IMPORT_IMAGE_IMAGE_BYTES_H_
 
 #include <gtest/gtest.h>
-#include <unistd.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <bit>
@@ -11,11 +9,13 @@
 #include <cstdlib>
 #include <cstring>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include "absl/status/statusor.h"
 #include "core/import/image/open_image.h"
+#include "tests/support/deflated.h"
 
 // Images byte by byte, as the formats' documents say, and what is read of them.
 namespace bccskel::testing {
@@ -26,28 +26,6 @@ std::string Bytes(Number number, std::endian order = std::endian::little) {
   std::memcpy(bytes.data(), &number, sizeof(Number));
   if (order != std::endian::native) std::reverse(bytes.begin(), bytes.end());
   return bytes;
-}
-
-enum class Wrapping { kZlib, kGzip };
-
-inline std::string Deflated(const std::string& bytes, Wrapping wrapping) {
-  z_stream zlib = {};
-  const int window = wrapping == Wrapping::kGzip ? 15 + 16 : 15;
-  if (deflateInit2(&zlib, 9, Z_DEFLATED, window, 8, Z_DEFAULT_STRATEGY) != Z_OK) std::abort();
-  std::string packed(deflateBound(&zlib, bytes.size()) + 64, '\0');
-  zlib.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
-  zlib.avail_in = static_cast<uInt>(bytes.size());
-  zlib.next_out = reinterpret_cast<Bytef*>(packed.data());
-  zlib.avail_out = static_cast<uInt>(packed.size());
-  if (deflate(&zlib, Z_FINISH) != Z_STREAM_END) std::abort();
-  packed.resize(zlib.total_out);
-  deflateEnd(&zlib);
-  return packed;
-}
-
-// A path of this process alone.
-inline std::string TemporaryPath(const std::string& name) {
-  return ::testing::TempDir() + "bccskel_" + std::to_string(getpid()) + "_" + name;
 }
 
 // What an image holds, all values as double, x fastest.
@@ -75,6 +53,12 @@ inline absl::StatusOr<ReadImage> ReadAll(absl::StatusOr<std::unique_ptr<ImageSou
 inline absl::StatusOr<ReadImage> ReadBytes(const std::string& bytes,
                                            const ImageOptions& options = {}) {
   return ReadAll(OpenImageBytes("test", bytes, options));
+}
+
+// What was read; a failure, with the reason, where it was not.
+inline ReadImage MustRead(absl::StatusOr<ReadImage> image) {
+  EXPECT_TRUE(image.ok()) << image.status();
+  return image.ok() ? *std::move(image) : ReadImage();
 }
 
 // Why bytes are no image; empty where they are one.

@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <string>
 
 #include "core/import/image/open_image.h"
+#include "tests/support/temporary_folder.h"
 
 namespace bccskel {
 namespace {
@@ -20,8 +20,8 @@ TEST(CheckImageChoice, KnowsTheFormatByItsEndingOrItsFirstBytes) {
   EXPECT_FALSE(CheckImageChoice("a.tif", level).ok());
   EXPECT_FALSE(CheckImageChoice("a.tif", series).ok());
   EXPECT_TRUE(CheckImageChoice("a.dcm", series).ok());
-  const std::string path = ::testing::TempDir() + "tiff_by_its_bytes.img";
-  std::ofstream(path, std::ios::binary) << std::string("II*\0\x08\0\0\0", 8);
+  const test::TemporaryFolder folder;
+  const std::string path = folder.Write("tiff.img", std::string("II*\0\x08\0\0\0", 8));
   EXPECT_TRUE(CheckImageChoice(path, page).ok());
   page.raw.emplace();
   EXPECT_FALSE(CheckImageChoice(path, page).ok());

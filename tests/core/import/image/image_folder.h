@@ -6,21 +6,21 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "absl/strings/str_replace.h"
 #include "tests/core/import/image/image_bytes.h"
+#include "tests/support/temporary_folder.h"
 
 namespace bccskel::testing {
 
 // An image that is a folder, written file by file; it is gone with its owner.
 class ImageFolder {
  public:
-  explicit ImageFolder(const std::string& name) : path_(TemporaryPath(name)) {
-    std::filesystem::remove_all(path_);
+  explicit ImageFolder(const std::string& name) : path_(parent_ / name) {
     std::filesystem::create_directories(path_);
   }
-  ~ImageFolder() { std::filesystem::remove_all(path_); }
-  ImageFolder(const ImageFolder&) = delete;
-  ImageFolder& operator=(const ImageFolder&) = delete;
 
   void Write(const std::string& name, const std::string& bytes) const {
     const std::filesystem::path path = std::filesystem::path(path_) / name;
@@ -33,8 +33,20 @@ class ImageFolder {
   const std::string& path() const { return path_; }
 
  private:
-  std::string path_;
+  const test::TemporaryFolder parent_;
+  const std::string path_;
 };
+
+using Replacements = std::vector<std::pair<std::string, std::string>>;
+
+// The text with parts replaced one after the other; each must be in it.
+inline std::string Replaced(std::string text, const Replacements& replacements) {
+  for (const auto& [from, to] : replacements) {
+    EXPECT_NE(text.find(from), text.npos) << from;
+    text = absl::StrReplaceAll(text, {{from, to}});
+  }
+  return text;
+}
 
 inline std::string ErrorOf(const ImageFolder& folder, const ImageOptions& options = {}) {
   const auto image = folder.Read(options);

@@ -165,12 +165,10 @@ TEST(HostileVolumes, AreAllStated) {
 
 TEST(HostileVolumes, KeepTheirValidNeighbors) {
   if (!std::filesystem::is_directory(kHostile)) GTEST_SKIP() << "no " << kHostile;
-  const auto big_endian = testing::ReadAll(OpenImage(kHostile / "big_endian_u2.npy"));
-  ASSERT_TRUE(big_endian.ok()) << big_endian.status();
-  EXPECT_EQ(big_endian->info.size, (ImageSize{5, 4, 3}));
-  const auto fortran = testing::ReadAll(OpenImage(kHostile / "fortran_order.npy"));
-  ASSERT_TRUE(fortran.ok()) << fortran.status();
-  EXPECT_EQ(fortran->info.size, (ImageSize{5, 4, 3}));
+  const auto big_endian = MustRead(testing::ReadAll(OpenImage(kHostile / "big_endian_u2.npy")));
+  EXPECT_EQ(big_endian.info.size, (ImageSize{5, 4, 3}));
+  const auto fortran = MustRead(testing::ReadAll(OpenImage(kHostile / "fortran_order.npy")));
+  EXPECT_EQ(fortran.info.size, (ImageSize{5, 4, 3}));
 }
 
 }  // namespace

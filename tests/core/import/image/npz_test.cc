@@ -66,11 +66,10 @@ TEST(Npz, GivesTheOnlyArrayWhetherStoredOrDeflated) {
   for (const int method : {ZIP_CM_STORE, ZIP_CM_DEFLATE}) {
     const std::string archive =
         Zip({{"notes.txt", "no array", method}, {"arr_0.npy", NpySlices(40), method}});
-    const auto image = ReadBytes(archive);
-    ASSERT_TRUE(image.ok()) << image.status();
-    EXPECT_EQ(image->info.format, "npy");
-    EXPECT_EQ(image->info.size, (ImageSize{3, 2, 40}));
-    EXPECT_EQ(image->values, CountedTo(240));
+    const auto image = MustRead(ReadBytes(archive));
+    EXPECT_EQ(image.info.format, "npy");
+    EXPECT_EQ(image.info.size, (ImageSize{3, 2, 40}));
+    EXPECT_EQ(image.values, CountedTo(240));
     EXPECT_TRUE(ReadBytes(testing::Deflated(archive, testing::Wrapping::kGzip)).ok());
   }
 }
@@ -79,9 +78,9 @@ TEST(Npz, GivesTheSameInFortranOrderSlabBySlab) {
   ImageOptions options;
   options.limits.max_slab_bytes = 7;
   const auto whole = ReadBytes(NpySlices(5, true));
-  const auto image = ReadBytes(Zip({{"a.npy", NpySlices(5, true), ZIP_CM_DEFLATE}}), options);
-  ASSERT_TRUE(image.ok()) << image.status();
-  EXPECT_EQ(image->values, whole->values);
+  const auto image =
+      MustRead(ReadBytes(Zip({{"a.npy", NpySlices(5, true), ZIP_CM_DEFLATE}}), options));
+  EXPECT_EQ(image.values, whole->values);
 }
 
 TEST(Npz, ChoosesAnArrayByItsName) {
@@ -92,9 +91,8 @@ TEST(Npz, ChoosesAnArrayByItsName) {
                         "one with --array NAME"));
   EXPECT_THAT(ErrorOfBytes(archive, ArrayNamed("masks")),
               HasSubstr("--array 'masks' is not there; there are 'raw', 'mask', 't/x'"));
-  const auto image = ReadBytes(archive, ArrayNamed("mask"));
-  ASSERT_TRUE(image.ok()) << image.status();
-  EXPECT_EQ(image->values, CountedTo(12));
+  const auto image = MustRead(ReadBytes(archive, ArrayNamed("mask")));
+  EXPECT_EQ(image.values, CountedTo(12));
   EXPECT_THAT(ErrorOfBytes(NpySlices(1), ArrayNamed("mask")),
               HasSubstr("--array applies only to .npz files"));
 }

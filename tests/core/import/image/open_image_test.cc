@@ -3,12 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
 #include <string>
 
 #include "absl/strings/str_format.h"
 #include "tests/core/import/image/image_bytes.h"
+#include "tests/core/import/image/image_folder.h"
 
 namespace bccskel {
 namespace {
@@ -28,49 +27,45 @@ std::string Npy(const std::string& dictionary, const std::string& elements) {
 }
 
 TEST(OpenImage, ReadsNrrdWithDirectionsAndUnits) {
-  const auto image = ReadBytes(
+  const auto image = MustRead(ReadBytes(
       "NRRD0005\n# comment\ntype: unsigned char\ndimension: 3\nspace: left-posterior-superior\n"
       "sizes: 3 2 2\nspace directions: (-1,0,0) (0, -2, 0) (0,0,3)\nencoding: raw\n"
       "space origin: (10,20,-30)\nspace units: \"mm\" \"mm\" \"mm\"\nkey:=value\n\n" +
-      Counting<uint8_t>(12));
-  ASSERT_TRUE(image.ok()) << image.status();
-  EXPECT_EQ(image->values, CountedTo(12));
-  EXPECT_EQ(image->info.size, (ImageSize{3, 2, 2}));
-  EXPECT_EQ(image->info.format, "NRRD");
-  EXPECT_EQ(image->info.unit, "mm");
-  EXPECT_EQ(image->info.world, "LPS");
-  EXPECT_THAT(image->info.placement.spacing, ElementsAre(1, 2, 3));
-  EXPECT_THAT(image->info.placement.ToWorld(2 * 2, 2 * 1, 2 * 1), ElementsAre(8, 18, -27));
+      Counting<uint8_t>(12)));
+  EXPECT_EQ(image.values, CountedTo(12));
+  EXPECT_EQ(image.info.size, (ImageSize{3, 2, 2}));
+  EXPECT_EQ(image.info.format, "NRRD");
+  EXPECT_EQ(image.info.unit, "mm");
+  EXPECT_EQ(image.info.world, "LPS");
+  EXPECT_THAT(image.info.placement.spacing, ElementsAre(1, 2, 3));
+  EXPECT_THAT(image.info.placement.ToWorld(2 * 2, 2 * 1, 2 * 1), ElementsAre(8, 18, -27));
 }
 
 TEST(OpenImage, ReadsNrrdWithAnAxisOfOneComponentInFront) {
   for (const std::string place :
        {"space directions: none (2,0,0) (0,3,0) (0,0,4)\nspace origin: (1,2,3)\nspace: RAS\n",
         "spacings: nan 2 3 4\n"}) {
-    const auto image = ReadBytes("NRRD0004\ntype: uint8\ndimension: 4\nsizes: 1 3 2 2\n" + place +
-                                 "encoding: raw\n\n" + Counting<uint8_t>(12));
-    ASSERT_TRUE(image.ok()) << image.status();
-    EXPECT_EQ(image->values, CountedTo(12));
-    EXPECT_EQ(image->info.size, (ImageSize{3, 2, 2}));
-    EXPECT_THAT(image->info.placement.spacing, ElementsAre(2, 3, 4));
+    const auto image = MustRead(ReadBytes("NRRD0004\ntype: uint8\ndimension: 4\nsizes: 1 3 2 2\n" +
+                                          place + "encoding: raw\n\n" + Counting<uint8_t>(12)));
+    EXPECT_EQ(image.values, CountedTo(12));
+    EXPECT_EQ(image.info.size, (ImageSize{3, 2, 2}));
+    EXPECT_THAT(image.info.placement.spacing, ElementsAre(2, 3, 4));
   }
 }
 
 // (0.36, 0.48, 0.8) has the length 1, in doubles 0.99999999999999989.
 TEST(OpenImage, GivesObliqueAxesTheSpacingThatIsStated) {
-  const auto meta = ReadBytes(
+  const auto meta = MustRead(ReadBytes(
       "ObjectType = Image\nNDims = 3\nTransformMatrix = 0.36 0.48 0.8 -0.8 0.6 0 -0.48 -0.64 0.6\n"
       "Offset = 5 6 7\nElementSpacing = 0.7 0.7 0.7\nDimSize = 3 2 2\nElementType = MET_UCHAR\n"
       "ElementDataFile = LOCAL\n" +
-      Counting<uint8_t>(12));
-  ASSERT_TRUE(meta.ok()) << meta.status();
-  EXPECT_THAT(meta->info.placement.spacing, ElementsAre(0.7, 0.7, 0.7));
-  const auto nrrd = ReadBytes(
-      "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 3 2 2\nspace: RAS\nencoding: raw\n"
-      "space directions: (0.252,0.336,0.56) (-0.56,0.42,0) (-0.336,-0.448,0.42)\n\n" +
-      Counting<uint8_t>(12));
-  ASSERT_TRUE(nrrd.ok()) << nrrd.status();
-  EXPECT_THAT(nrrd->info.placement.spacing, ElementsAre(0.7, 0.7, 0.7));
+      Counting<uint8_t>(12)));
+  EXPECT_THAT(meta.info.placement.spacing, ElementsAre(0.7, 0.7, 0.7));
+  const auto nrrd = MustRead(
+      ReadBytes("NRRD0004\ntype: uint8\ndimension: 3\nsizes: 3 2 2\nspace: RAS\nencoding: raw\n"
+                "space directions: (0.252,0.336,0.56) (-0.56,0.42,0) (-0.336,-0.448,0.42)\n\n" +
+                Counting<uint8_t>(12)));
+  EXPECT_THAT(nrrd.info.placement.spacing, ElementsAre(0.7, 0.7, 0.7));
 }
 
 TEST(OpenImage, GivesTurnedNiftiTheSpacingOfItsPixdim) {
@@ -90,11 +85,10 @@ TEST(OpenImage, GivesTurnedNiftiTheSpacingOfItsPixdim) {
     return bytes;
   };
   for (const std::string& bytes : {header(1, 0), header(0, 1)}) {
-    const auto image = ReadBytes(bytes + Counting<uint8_t>(12));
-    ASSERT_TRUE(image.ok()) << image.status();
+    const auto image = MustRead(ReadBytes(bytes + Counting<uint8_t>(12)));
     const double exact = 0.7F;
-    EXPECT_THAT(image->info.placement.spacing, ElementsAre(exact, exact, exact));
-    const auto& direction = image->info.placement.direction;
+    EXPECT_THAT(image.info.placement.spacing, ElementsAre(exact, exact, exact));
+    const auto& direction = image.info.placement.direction;
     for (size_t axis = 0; axis < 3; ++axis) {
       const double x = direction[axis], y = direction[3 + axis], z = direction[6 + axis];
       EXPECT_NEAR(x * x + y * y + z * z, 1, 1e-15);
@@ -109,54 +103,49 @@ TEST(OpenImage, TurnsNiftiByAQuaternionLongerThanOne) {
   };
   put(252, Bytes<int16_t>(1) + Bytes<int16_t>(0));
   put(256, Bytes(1.2F) + Bytes(0.0F) + Bytes(0.0F));  // half a turn about x
-  const auto image = ReadBytes(header + Counting<uint8_t>(12));
-  ASSERT_TRUE(image.ok()) << image.status();
-  EXPECT_THAT(image->info.placement.spacing, ElementsAre(1, 2, 3));
-  EXPECT_THAT(image->info.placement.direction, ElementsAre(1, 0, 0, 0, -1, 0, 0, 0, -1));
+  const auto image = MustRead(ReadBytes(header + Counting<uint8_t>(12)));
+  EXPECT_THAT(image.info.placement.spacing, ElementsAre(1, 2, 3));
+  EXPECT_THAT(image.info.placement.direction, ElementsAre(1, 0, 0, 0, -1, 0, 0, 0, -1));
 }
 
 TEST(OpenImage, ReadsNrrdOfOneSliceAnywhereInSpace) {
-  const auto image = ReadBytes(
-      "NRRD0004\ntype: uint8\ndimension: 2\nsizes: 3 2\nspace: RAS\nencoding: raw\n"
-      "space directions: (0,0.5,0) (0,0,0.25)\n\n" +
-      Counting<uint8_t>(6));
-  ASSERT_TRUE(image.ok()) << image.status();
-  EXPECT_THAT(image->info.placement.spacing, ElementsAre(0.5, 0.25, 1));
-  EXPECT_THAT(image->info.placement.direction, ElementsAre(0, 0, 1, 1, 0, 0, 0, 1, 0));
+  const auto image = MustRead(
+      ReadBytes("NRRD0004\ntype: uint8\ndimension: 2\nsizes: 3 2\nspace: RAS\nencoding: raw\n"
+                "space directions: (0,0.5,0) (0,0,0.25)\n\n" +
+                Counting<uint8_t>(6)));
+  EXPECT_THAT(image.info.placement.spacing, ElementsAre(0.5, 0.25, 1));
+  EXPECT_THAT(image.info.placement.direction, ElementsAre(0, 0, 1, 1, 0, 0, 0, 1, 0));
 }
 
 TEST(OpenImage, ReadsNiftiOfOneSliceWithoutADistanceToTheNext) {
   std::string header = testing::Nifti1Header();
   header.replace(46, 2, Bytes<int16_t>(1));
   header.replace(88, 4, Bytes(0.0F));
-  const auto image = ReadBytes(header + Counting<uint8_t>(6));
-  ASSERT_TRUE(image.ok()) << image.status();
-  EXPECT_THAT(image->info.placement.spacing, ElementsAre(1, 2, 1));
+  const auto image = MustRead(ReadBytes(header + Counting<uint8_t>(6)));
+  EXPECT_THAT(image.info.placement.spacing, ElementsAre(1, 2, 1));
 }
 
 TEST(OpenImage, ReadsMetaImageWhoseRowsAreTheAxes) {
   // Axis 0 points along y, axis 1 against x.
-  const auto image = ReadBytes(
-      "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = True\n"
-      "TransformMatrix = 0 1 0 -1 0 0 0 0 1\nOffset = 5 6 7\nElementSpacing = 1 2 3\n"
-      "DimSize = 3 2 2\nElementType = MET_USHORT\nElementDataFile = LOCAL\n" +
-      Counting<uint16_t>(12, std::endian::big));
-  ASSERT_TRUE(image.ok()) << image.status();
-  EXPECT_EQ(image->values, CountedTo(12));
-  EXPECT_THAT(image->info.placement.spacing, ElementsAre(1, 2, 3));
-  EXPECT_THAT(image->info.placement.ToWorld(2 * 2, 0, 0), ElementsAre(5, 8, 7));
-  EXPECT_THAT(image->info.placement.ToWorld(0, 2 * 1, 2 * 1), ElementsAre(3, 6, 10));
+  const auto image = MustRead(
+      ReadBytes("ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = True\n"
+                "TransformMatrix = 0 1 0 -1 0 0 0 0 1\nOffset = 5 6 7\nElementSpacing = 1 2 3\n"
+                "DimSize = 3 2 2\nElementType = MET_USHORT\nElementDataFile = LOCAL\n" +
+                Counting<uint16_t>(12, std::endian::big)));
+  EXPECT_EQ(image.values, CountedTo(12));
+  EXPECT_THAT(image.info.placement.spacing, ElementsAre(1, 2, 3));
+  EXPECT_THAT(image.info.placement.ToWorld(2 * 2, 0, 0), ElementsAre(5, 8, 7));
+  EXPECT_THAT(image.info.placement.ToWorld(0, 2 * 1, 2 * 1), ElementsAre(3, 6, 10));
 }
 
 TEST(OpenImage, ReadsInrimage) {
-  const auto image = ReadBytes(
+  const auto image = MustRead(ReadBytes(
       "#INRIMAGE-4#{\nXDIM=3\nYDIM=2\nZDIM=2\nVDIM=1\nTYPE=signed fixed\nPIXSIZE=16 bits\n"
       "SCALE=2**0\nCPU=sun\nVX=0.5\nVY=1\nVZ=2\nTX=1\nTY=2\nTZ=3\n\n##}\n" +
-      Counting<int16_t>(12, std::endian::big));
-  ASSERT_TRUE(image.ok()) << image.status();
-  EXPECT_EQ(image->values, CountedTo(12));
-  EXPECT_THAT(image->info.placement.spacing, ElementsAre(0.5, 1, 2));
-  EXPECT_THAT(image->info.placement.origin, ElementsAre(1, 2, 3));
+      Counting<int16_t>(12, std::endian::big)));
+  EXPECT_EQ(image.values, CountedTo(12));
+  EXPECT_THAT(image.info.placement.spacing, ElementsAre(0.5, 1, 2));
+  EXPECT_THAT(image.info.placement.origin, ElementsAre(1, 2, 3));
 }
 
 TEST(OpenImage, ReadsVolOfVersions2And3AndPutsItsCenter) {
@@ -166,19 +155,17 @@ TEST(OpenImage, ReadsVolOfVersions2And3AndPutsItsCenter) {
   const std::string plain = front + "2\n.\n" + Counting<uint8_t>(12);
   const std::string packed = front + "3\n.\n" + Deflated(Counting<uint8_t>(12), Wrapping::kZlib);
   for (const std::string& bytes : {plain, packed}) {
-    const auto image = ReadBytes(bytes);
-    ASSERT_TRUE(image.ok()) << image.status();
-    EXPECT_EQ(image->values, CountedTo(12));
-    EXPECT_THAT(image->info.placement.origin, ElementsAre(9, 10, 10));
+    const auto image = MustRead(ReadBytes(bytes));
+    EXPECT_EQ(image.values, CountedTo(12));
+    EXPECT_THAT(image.info.placement.origin, ElementsAre(9, 10, 10));
   }
 }
 
 TEST(OpenImage, ReadsNpyWithTheLastAxisAsX) {
-  const auto image = ReadBytes(
-      Npy("{'descr': '|u1', 'fortran_order': False, 'shape': (2, 2, 3), }", Counting<uint8_t>(12)));
-  ASSERT_TRUE(image.ok()) << image.status();
-  EXPECT_EQ(image->info.size, (ImageSize{3, 2, 2}));
-  EXPECT_EQ(image->values, CountedTo(12));
+  const auto image = MustRead(ReadBytes(Npy(
+      "{'descr': '|u1', 'fortran_order': False, 'shape': (2, 2, 3), }", Counting<uint8_t>(12))));
+  EXPECT_EQ(image.info.size, (ImageSize{3, 2, 2}));
+  EXPECT_EQ(image.values, CountedTo(12));
 }
 
 TEST(OpenImage, ReadsNpyOfHalfPrecision) {
@@ -187,10 +174,9 @@ TEST(OpenImage, ReadsNpyOfHalfPrecision) {
   for (const int half : {0x0000, 0x3c00, 0xbe00, 0x7bff, 0x0001, 0x8400, 0xfc00, 0x7e01}) {
     elements += Bytes(static_cast<uint16_t>(half));
   }
-  const auto image = ReadBytes(Npy(dictionary, elements));
-  ASSERT_TRUE(image.ok()) << image.status();
-  EXPECT_EQ(image->info.type, VoxelType::kFloat32);
-  EXPECT_THAT(image->values,
+  const auto image = MustRead(ReadBytes(Npy(dictionary, elements)));
+  EXPECT_EQ(image.info.type, VoxelType::kFloat32);
+  EXPECT_THAT(image.values,
               ElementsAre(0, 1, -1.5, 65504, 0x1p-24, -0x1p-14, -HUGE_VAL, ::testing::IsNan()));
 }
 
@@ -208,10 +194,9 @@ TEST(OpenImage, ReadsNpyInFortranOrderAsTheSameArray) {
   for (const uint64_t slab : {uint64_t{1} << 20, uint64_t{50}, uint64_t{1}}) {
     ImageOptions options;
     options.limits.max_slab_bytes = slab;
-    const auto image = ReadBytes(bytes, options);
-    ASSERT_TRUE(image.ok()) << image.status();
-    EXPECT_EQ(image->info.size, (ImageSize{4, 3, 2}));
-    EXPECT_EQ(image->values, CountedTo(24)) << slab;
+    const auto image = MustRead(ReadBytes(bytes, options));
+    EXPECT_EQ(image.info.size, (ImageSize{4, 3, 2}));
+    EXPECT_EQ(image.values, CountedTo(24)) << slab;
   }
 }
 
@@ -227,12 +212,11 @@ TEST(OpenImage, DropsAxesOfLengthOneOfNpyArrays) {
 
 TEST(OpenImage, ReadsNifti1InBothByteOrders) {
   for (const std::endian order : {std::endian::little, std::endian::big}) {
-    const auto image = ReadBytes(testing::Nifti1Header(order) + Counting<uint8_t>(12));
-    ASSERT_TRUE(image.ok()) << image.status();
-    EXPECT_EQ(image->values, CountedTo(12));
-    EXPECT_EQ(image->info.format, "NIfTI-1");
-    EXPECT_EQ(image->info.unit, "mm");
-    EXPECT_THAT(image->info.placement.spacing, ElementsAre(1, 2, 3));
+    const auto image = MustRead(ReadBytes(testing::Nifti1Header(order) + Counting<uint8_t>(12)));
+    EXPECT_EQ(image.values, CountedTo(12));
+    EXPECT_EQ(image.info.format, "NIfTI-1");
+    EXPECT_EQ(image.info.unit, "mm");
+    EXPECT_THAT(image.info.placement.spacing, ElementsAre(1, 2, 3));
   }
 }
 
@@ -245,10 +229,9 @@ TEST(OpenImage, TakesTheWorldOfNiftiForRasOnlyWhereACodeStatesIt) {
         Bytes<int16_t>(static_cast<int16_t>(qform)) + Bytes<int16_t>(static_cast<int16_t>(sform)));
     const float srow[12] = {1, 0, 0, 0, 0, 2, 0, 0, 0, 0, 3, 0};
     for (size_t n = 0; n < 12; ++n) header.replace(280 + 4 * n, 4, Bytes(srow[n]));
-    const auto image = ReadBytes(header + Counting<uint8_t>(12));
-    ASSERT_TRUE(image.ok()) << image.status();
-    EXPECT_EQ(image->info.world, qform + sform > 0 ? "RAS" : "") << qform << sform;
-    EXPECT_THAT(image->info.placement.spacing, ElementsAre(1, 2, 3));
+    const auto image = MustRead(ReadBytes(header + Counting<uint8_t>(12)));
+    EXPECT_EQ(image.info.world, qform + sform > 0 ? "RAS" : "") << qform << sform;
+    EXPECT_THAT(image.info.placement.spacing, ElementsAre(1, 2, 3));
   }
 }
 
@@ -257,20 +240,18 @@ TEST(OpenImage, PrefersTheSformToTheQform) {
   header.replace(252, 4, Bytes<int16_t>(1) + Bytes<int16_t>(2));
   const float srow[12] = {0, 4, 0, 10, 5, 0, 0, 20, 0, 0, 6, 30};
   for (size_t n = 0; n < 12; ++n) header.replace(280 + 4 * n, 4, Bytes(srow[n]));
-  const auto image = ReadBytes(header + Counting<uint8_t>(12));
-  ASSERT_TRUE(image.ok()) << image.status();
-  EXPECT_THAT(image->info.placement.spacing, ElementsAre(5, 4, 6));
-  EXPECT_THAT(image->info.placement.ToWorld(2, 0, 0), ElementsAre(10, 25, 30));
+  const auto image = MustRead(ReadBytes(header + Counting<uint8_t>(12)));
+  EXPECT_THAT(image.info.placement.spacing, ElementsAre(5, 4, 6));
+  EXPECT_THAT(image.info.placement.ToWorld(2, 0, 0), ElementsAre(10, 25, 30));
 }
 
 TEST(OpenImage, ScalesNiftiValues) {
   std::string header = testing::Nifti1Header();
   header.replace(112, 8, Bytes<float>(0.5F) + Bytes<float>(-1.0F));
-  const auto image = ReadBytes(header + Counting<uint8_t>(12));
-  ASSERT_TRUE(image.ok()) << image.status();
-  EXPECT_EQ(image->info.type, VoxelType::kFloat64);
-  EXPECT_EQ(image->values[0], -1);
-  EXPECT_EQ(image->values[11], 4.5);
+  const auto image = MustRead(ReadBytes(header + Counting<uint8_t>(12)));
+  EXPECT_EQ(image.info.type, VoxelType::kFloat64);
+  EXPECT_EQ(image.values[0], -1);
+  EXPECT_EQ(image.values[11], 4.5);
 }
 
 TEST(OpenImage, ReadsGzipFilesOfAnyFormatAndOfSeveralMembers) {
@@ -279,9 +260,8 @@ TEST(OpenImage, ReadsGzipFilesOfAnyFormatAndOfSeveralMembers) {
   const std::string two = Deflated(bytes.substr(0, 355), Wrapping::kGzip) +
                           Deflated(bytes.substr(355), Wrapping::kGzip);
   for (const std::string& packed : {one, two}) {
-    const auto image = ReadBytes(packed);
-    ASSERT_TRUE(image.ok()) << image.status();
-    EXPECT_EQ(image->values, CountedTo(12));
+    const auto image = MustRead(ReadBytes(packed));
+    EXPECT_EQ(image.values, CountedTo(12));
   }
 }
 
@@ -299,10 +279,9 @@ TEST_P(EveryType, IsReadInBothByteOrders) {
         .size = {3, 5, 2}, .type = GetParam().type, .byte_order = order, .header_bytes = 7};
     const std::string bytes = "header." + GetParam().counting(30, order);
     for (const std::string& stored : {bytes, Deflated(bytes, Wrapping::kGzip)}) {
-      const auto image = ReadBytes(stored, options);
-      ASSERT_TRUE(image.ok()) << image.status();
-      EXPECT_EQ(image->info.type, GetParam().type);
-      EXPECT_EQ(image->values, CountedTo(30));
+      const auto image = MustRead(ReadBytes(stored, options));
+      EXPECT_EQ(image.info.type, GetParam().type);
+      EXPECT_EQ(image.values, CountedTo(30));
     }
   }
 }
@@ -332,48 +311,36 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(OpenImage, TakesTheSpacingFromTheOptions) {
   ImageOptions options;
   options.spacing = {0.5, 0.25, 2};
-  const auto image = ReadBytes(testing::Nifti1Header() + Counting<uint8_t>(12), options);
-  ASSERT_TRUE(image.ok()) << image.status();
-  EXPECT_THAT(image->info.placement.spacing, ElementsAre(0.5, 0.25, 2));
+  const auto image = MustRead(ReadBytes(testing::Nifti1Header() + Counting<uint8_t>(12), options));
+  EXPECT_THAT(image.info.placement.spacing, ElementsAre(0.5, 0.25, 2));
   options.spacing = {0, 1, 1};
   EXPECT_EQ(ReadBytes(testing::Nifti1Header() + Counting<uint8_t>(12), options).status().code(),
             absl::StatusCode::kInvalidArgument);
 }
 
 TEST(OpenImage, ReadsVoxelsFromAFileBesideTheHeaderOnly) {
-  const auto folder = std::filesystem::path(testing::TemporaryPath("detached"));
-  std::filesystem::create_directories(folder / "inner");
-  const auto write = [&folder](const std::string& name, const std::string& bytes) {
-    std::ofstream(folder / name, std::ios::binary) << bytes;
-    return (folder / name).string();
+  const testing::ImageFolder folder("detached");
+  folder.Write("voxels.raw", "skip" + Counting<uint8_t>(12));
+  folder.Write("inner/voxels.raw", "skip" + Counting<uint8_t>(12));
+  const auto nrrd = [&folder](const std::string& place) {
+    folder.Write("a.nhdr", "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 3 2 2\nencoding: raw\n" +
+                               place + "\n");
+    return folder.path() + "/a.nhdr";
   };
-  write("voxels.raw", "skip" + Counting<uint8_t>(12));
-  write("inner/voxels.raw", "skip" + Counting<uint8_t>(12));
-  const auto nrrd = [&](const std::string& place) {
-    return write("a.nhdr", absl::StrFormat("NRRD0004\ntype: uint8\ndimension: 3\nsizes: 3 2 2\n"
-                                           "encoding: raw\n%s\n",
-                                           place));
-  };
-  for (const char* place : {"data file: voxels.raw\nbyte skip: 4",
-                            "byte skip: -1\ndata file: "
-                            "./voxels.raw"}) {
-    const auto image = testing::ReadAll(OpenImage(nrrd(place)));
-    ASSERT_TRUE(image.ok()) << image.status();
-    EXPECT_EQ(image->values, CountedTo(12));
+  for (const char* place :
+       {"data file: voxels.raw\nbyte skip: 4", "byte skip: -1\ndata file: ./voxels.raw"}) {
+    const auto image = MustRead(testing::ReadAll(OpenImage(nrrd(place))));
+    EXPECT_EQ(image.values, CountedTo(12));
   }
-  const std::string around = absl::StrFormat("../%s/voxels.raw", folder.filename().string());
-  for (const std::string& place :
-       {std::string("inner/voxels.raw"), around, std::string("/etc/passwd")}) {
+  for (const char* place : {"inner/voxels.raw", "../detached/voxels.raw", "/etc/passwd"}) {
     const auto status = OpenImage(nrrd(absl::StrFormat("data file: %s", place))).status();
     EXPECT_THAT(std::string(status.message()), HasSubstr("only a file beside the header"));
   }
-  const auto meta = write("a.mhd",
-                          "NDims = 3\nDimSize = 3 2 2\nElementType = MET_UCHAR\nHeaderSize = 4\n"
-                          "ElementDataFile = voxels.raw");
-  const auto image = testing::ReadAll(OpenImage(meta));
-  ASSERT_TRUE(image.ok()) << image.status();
-  EXPECT_EQ(image->values, CountedTo(12));
-  std::filesystem::remove_all(folder);
+  folder.Write("a.mhd",
+               "NDims = 3\nDimSize = 3 2 2\nElementType = MET_UCHAR\nHeaderSize = 4\n"
+               "ElementDataFile = voxels.raw");
+  const auto image = MustRead(testing::ReadAll(OpenImage(folder.path() + "/a.mhd")));
+  EXPECT_EQ(image.values, CountedTo(12));
 }
 
 TEST(OpenImage, RefusesFoldersAndMissingFilesByName) {

@@ -24,13 +24,12 @@ TEST(Png, KeepsGrayLevelsAndPaletteIndicesOfAllBits) {
       if (color == PNG_COLOR_TYPE_PALETTE && bits == 16) continue;
       const auto most = static_cast<uint16_t>((1 << bits) - 1);
       const auto other = static_cast<uint16_t>(most / 3);
-      const auto image = ReadBytes(
-          PngBytes({.bits = bits, .color = color, .samples = {0, most, 0, other, 0, most}}));
-      ASSERT_TRUE(image.ok()) << image.status();
-      EXPECT_EQ(image->info.format, "PNG");
-      EXPECT_EQ(image->info.size, (ImageSize{3, 2, 1}));
-      EXPECT_EQ(image->info.type, bits == 16 ? VoxelType::kUint16 : VoxelType::kUint8);
-      EXPECT_THAT(image->values, ElementsAre(0, most, 0, other, 0, most)) << bits;
+      const auto image = MustRead(ReadBytes(
+          PngBytes({.bits = bits, .color = color, .samples = {0, most, 0, other, 0, most}})));
+      EXPECT_EQ(image.info.format, "PNG");
+      EXPECT_EQ(image.info.size, (ImageSize{3, 2, 1}));
+      EXPECT_EQ(image.info.type, bits == 16 ? VoxelType::kUint16 : VoxelType::kUint8);
+      EXPECT_THAT(image.values, ElementsAre(0, most, 0, other, 0, most)) << bits;
     }
   }
 }
@@ -39,10 +38,9 @@ TEST(Png, ReadsTheSameWhetherInterlacedOrNot) {
   std::vector<uint16_t> samples(size_t{19} * 11);
   for (size_t n = 0; n < samples.size(); ++n) samples[n] = static_cast<uint16_t>(n);
   for (const int interlace : {PNG_INTERLACE_NONE, PNG_INTERLACE_ADAM7}) {
-    const auto image = ReadBytes(
-        PngBytes({.width = 19, .height = 11, .interlace = interlace, .samples = samples}));
-    ASSERT_TRUE(image.ok()) << image.status();
-    EXPECT_EQ(image->values, CountedTo(19 * 11));
+    const auto image = MustRead(ReadBytes(
+        PngBytes({.width = 19, .height = 11, .interlace = interlace, .samples = samples})));
+    EXPECT_EQ(image.values, CountedTo(19 * 11));
   }
 }
 
@@ -59,9 +57,8 @@ TEST(Png, TakesColorsThatAreGrayAndOpaque) {
          {7, 7, 7, most, most, most, most, most}},
         {2, 1, bits, PNG_COLOR_TYPE_GRAY_ALPHA, PNG_INTERLACE_ADAM7, {7, most, most, most}}};
     for (const testing::PngPicture& picture : pictures) {
-      const auto image = ReadBytes(PngBytes(picture));
-      ASSERT_TRUE(image.ok()) << image.status();
-      EXPECT_THAT(image->values, ElementsAre(7, most)) << bits;
+      const auto image = MustRead(ReadBytes(PngBytes(picture)));
+      EXPECT_THAT(image.values, ElementsAre(7, most)) << bits;
     }
   }
 }
@@ -83,12 +80,11 @@ TEST(Png, RefusesColorsAndTransparencyWithTheirPlace) {
 }
 
 TEST(Png, TransparentBlackIsBackground) {
-  const auto image = ReadBytes(PngBytes({.width = 2,
-                                         .height = 1,
-                                         .color = PNG_COLOR_TYPE_RGBA,
-                                         .samples = {0, 0, 0, 0, 255, 255, 255, 255}}));
-  ASSERT_TRUE(image.ok()) << image.status();
-  EXPECT_THAT(image->values, ElementsAre(0, 255));
+  const auto image = MustRead(ReadBytes(PngBytes({.width = 2,
+                                                  .height = 1,
+                                                  .color = PNG_COLOR_TYPE_RGBA,
+                                                  .samples = {0, 0, 0, 0, 255, 255, 255, 255}})));
+  EXPECT_THAT(image.values, ElementsAre(0, 255));
   EXPECT_THAT(ErrorOfBytes(PngBytes({.width = 2,
                                      .height = 1,
                                      .color = PNG_COLOR_TYPE_RGBA,
@@ -103,17 +99,15 @@ TEST(Png, TransparentBlackIsBackground) {
 
 TEST(Png, ReadsAFileCompressedByGzipAsAWhole) {
   const std::string bytes = PngBytes({.samples = {0, 1, 2, 3, 4, 5}});
-  const auto image = ReadBytes(testing::Deflated(bytes, testing::Wrapping::kGzip));
-  ASSERT_TRUE(image.ok()) << image.status();
-  EXPECT_EQ(image->values, CountedTo(6));
+  const auto image = MustRead(ReadBytes(testing::Deflated(bytes, testing::Wrapping::kGzip)));
+  EXPECT_EQ(image.values, CountedTo(6));
 }
 
 TEST(Png, HasTheSpacingOfTheOptions) {
   ImageOptions options;
   options.spacing = {2, 3, 4};
-  const auto image = ReadBytes(PngBytes({.samples = {0, 1, 2, 3, 4, 5}}), options);
-  ASSERT_TRUE(image.ok()) << image.status();
-  EXPECT_THAT(image->info.placement.spacing, ElementsAre(2, 3, 4));
+  const auto image = MustRead(ReadBytes(PngBytes({.samples = {0, 1, 2, 3, 4, 5}}), options));
+  EXPECT_THAT(image.info.placement.spacing, ElementsAre(2, 3, 4));
 }
 
 TEST(Png, RefusesEveryCutAndEveryChangedByte) {

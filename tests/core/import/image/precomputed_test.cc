@@ -14,7 +14,6 @@ namespace {
 
 using ::testing::AllOf;
 using testing::Bytes;
-using testing::Counting;
 using ::testing::ElementsAre;
 using testing::ErrorOf;
 using ::testing::HasSubstr;
@@ -117,15 +116,14 @@ TEST(Precomputed, IsReadRawAndCompressed) {
     const ImageFolder folder("volume");
     folder.Write("info", Info(raw ? kRaw : kCompressed));
     WriteChunks(folder, raw ? &RawChunk : &CompressedChunk);
-    const auto image = folder.Read();
-    ASSERT_TRUE(image.ok()) << image.status();
-    EXPECT_EQ(image->info.format, "precomputed");
-    EXPECT_EQ(image->info.size, (ImageSize{kX, kY, kZ}));
-    EXPECT_EQ(image->info.type, VoxelType::kUint64);
-    EXPECT_EQ(image->info.unit, "nm");
-    EXPECT_THAT(image->info.placement.spacing, ElementsAre(8, 8, 40));
-    EXPECT_THAT(image->info.placement.origin, ElementsAre(84, -156, 1220));
-    EXPECT_EQ(image->values, Labels());
+    const auto image = MustRead(folder.Read());
+    EXPECT_EQ(image.info.format, "precomputed");
+    EXPECT_EQ(image.info.size, (ImageSize{kX, kY, kZ}));
+    EXPECT_EQ(image.info.type, VoxelType::kUint64);
+    EXPECT_EQ(image.info.unit, "nm");
+    EXPECT_THAT(image.info.placement.spacing, ElementsAre(8, 8, 40));
+    EXPECT_THAT(image.info.placement.origin, ElementsAre(84, -156, 1220));
+    EXPECT_EQ(image.values, Labels());
   }
 }
 
@@ -142,18 +140,16 @@ TEST(Precomputed, IsExpandedThoughTheStreamIsAsLongAsAChunk) {
       {"key":"s","size":[100,1,1],"resolution":[1,1,1],"chunk_sizes":[[100,1,1]],
        "encoding":"raw"}]})");
   folder.Write("s/0-100_0-1_0-1", stream);
-  const auto image = folder.Read();
-  ASSERT_TRUE(image.ok()) << image.status();
-  EXPECT_EQ(image->values[0], 0);
-  EXPECT_EQ(image->values[1], 8);
+  const auto image = MustRead(folder.Read());
+  EXPECT_EQ(image.values[0], 0);
+  EXPECT_EQ(image.values[1], 8);
 }
 
 TEST(Precomputed, IsEmptyWhereChunksAreMissing) {
   const ImageFolder folder("gaps");
   folder.Write("info", Info(kRaw));
-  const auto image = folder.Read();
-  ASSERT_TRUE(image.ok()) << image.status();
-  EXPECT_EQ(image->values, std::vector<double>(kX * kY * kZ));
+  const auto image = MustRead(folder.Read());
+  EXPECT_EQ(image.values, std::vector<double>(kX * kY * kZ));
 }
 
 TEST(Precomputed, IsReadRawWhereVoxelsBeginAsGzipDoes) {
@@ -161,9 +157,8 @@ TEST(Precomputed, IsReadRawWhereVoxelsBeginAsGzipDoes) {
   folder.Write("info",
                absl::StrReplaceAll(Info(kRaw), {{"uint64", "uint8"}, {"[5,3,4]", "[2,1,1]"}}));
   folder.Write("8_8_40/10-12_-20--19_30-31", "\x1f\x8b");
-  const auto image = folder.Read();
-  ASSERT_TRUE(image.ok()) << image.status();
-  EXPECT_THAT(image->values, ElementsAre(0x1f, 0x8b));
+  const auto image = MustRead(folder.Read());
+  EXPECT_THAT(image.values, ElementsAre(0x1f, 0x8b));
 }
 
 TEST(Precomputed, RefusesWhatIsNotRead) {

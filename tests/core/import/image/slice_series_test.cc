@@ -41,11 +41,10 @@ TEST(SliceSeries, StacksSlicesByTheirNumbers) {
   folder.Write("notes.txt", "a scan");
   folder.Write("._mask7.png", "what macOS leaves");
   folder.Write("preview/mask1.png", "below");
-  const auto image = folder.Read();
-  ASSERT_TRUE(image.ok()) << image.status();
-  EXPECT_EQ(image->info.size, (ImageSize{3, 2, 12}));
-  EXPECT_EQ(image->info.format, "PNG");
-  EXPECT_EQ(image->values, CountedTo(72));
+  const auto image = MustRead(folder.Read());
+  EXPECT_EQ(image.info.size, (ImageSize{3, 2, 12}));
+  EXPECT_EQ(image.info.format, "PNG");
+  EXPECT_EQ(image.values, CountedTo(72));
 }
 
 TEST(SliceSeries, StacksTiffSlicesWithTheSpacingOfTheOptions) {
@@ -53,18 +52,16 @@ TEST(SliceSeries, StacksTiffSlicesWithTheSpacingOfTheOptions) {
   for (uint8_t z = 0; z < 3; ++z) folder.Write("s_0" + std::to_string(z) + ".TIF", TiffSlices(z));
   ImageOptions options;
   options.spacing = {1, 1, 2.5};
-  const auto image = folder.Read(options);
-  ASSERT_TRUE(image.ok()) << image.status();
-  EXPECT_EQ(image->values, CountedTo(18));
-  EXPECT_THAT(image->info.placement.spacing, ElementsAre(1, 1, 2.5));
+  const auto image = MustRead(folder.Read(options));
+  EXPECT_EQ(image.values, CountedTo(18));
+  EXPECT_THAT(image.info.placement.spacing, ElementsAre(1, 1, 2.5));
 }
 
 TEST(SliceSeries, OfOneFileIsThatFile) {
   const ImageFolder folder("one_file");
   folder.Write("stack.tif", TiffSlices(0, 4));
-  const auto image = folder.Read();
-  ASSERT_TRUE(image.ok()) << image.status();
-  EXPECT_EQ(image->values, CountedTo(24));
+  const auto image = MustRead(folder.Read());
+  EXPECT_EQ(image.values, CountedTo(24));
 }
 
 TEST(SliceSeries, CountsByTheOneNumberThatDiffers) {

@@ -4,13 +4,11 @@
 #include <tiffio.h>
 
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
 #include "tests/core/import/image/image_bytes.h"
+#include "tests/support/temporary_folder.h"
 
 namespace bccskel::testing {
 
@@ -28,7 +26,8 @@ struct TiffPages {
 
 // Pages whose bytes count on from the first; the last one may be wider.
 inline std::string TiffBytes(const TiffPages& pages, uint32_t last_width = 0) {
-  const std::string path = TemporaryPath("pages.tif");
+  const test::TemporaryFolder folder;
+  const std::string path = folder / "pages.tif";
   TIFF* tiff = TIFFOpen(path.c_str(), "w");
   uint8_t next = pages.first;
   for (int page = 0; page < pages.count; ++page) {
@@ -52,10 +51,7 @@ inline std::string TiffBytes(const TiffPages& pages, uint32_t last_width = 0) {
     TIFFWriteDirectory(tiff);
   }
   TIFFClose(tiff);
-  std::ifstream file(path, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  std::filesystem::remove(path);
-  return bytes;
+  return test::BytesOfFile(path);
 }
 
 }  // namespace bccskel::testing

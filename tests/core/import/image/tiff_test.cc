@@ -23,10 +23,9 @@ using testing::TiffBytes;
 TEST(Tiff, StacksPagesOfEveryCompression) {
   for (const int compression :
        {COMPRESSION_NONE, COMPRESSION_LZW, COMPRESSION_PACKBITS, COMPRESSION_ADOBE_DEFLATE}) {
-    const auto image = ReadBytes(TiffBytes({.compression = compression}));
-    ASSERT_TRUE(image.ok()) << image.status();
-    EXPECT_EQ(image->info.size, (ImageSize{3, 4, 2}));
-    EXPECT_EQ(image->values, CountedTo(24));
+    const auto image = MustRead(ReadBytes(TiffBytes({.compression = compression})));
+    EXPECT_EQ(image.info.size, (ImageSize{3, 4, 2}));
+    EXPECT_EQ(image.values, CountedTo(24));
   }
 }
 
@@ -53,9 +52,8 @@ TEST(Tiff, SaysWhatToDoWithACompressionThatItDoesNotRead) {
 
 TEST(Tiff, GivesBilevelPagesAsZeroAndOne) {
   // Rows of bytes 0, 1, 2, 3: the highest bit is the first pixel.
-  const auto image = ReadBytes(TiffBytes({.count = 1, .width = 8, .bits = 1}));
-  ASSERT_TRUE(image.ok()) << image.status();
-  EXPECT_EQ(std::vector<double>(image->values.begin() + 24, image->values.end()),
+  const auto image = MustRead(ReadBytes(TiffBytes({.count = 1, .width = 8, .bits = 1})));
+  EXPECT_EQ(std::vector<double>(image.values.begin() + 24, image.values.end()),
             (std::vector<double>{0, 0, 0, 0, 0, 0, 1, 1}));
 }
 
@@ -157,10 +155,9 @@ TEST(Tiff, TakesThePhysicalSizeOfOme) {
   const std::string description =
       Ome("DimensionOrder=\"XYZCT\" SizeZ=\"2\" SizeC=\"1\" SizeT=\"1\" PhysicalSizeX=\"0.2\" "
           "PhysicalSizeY=\"0.25\" PhysicalSizeZ=\"1.5\" PhysicalSizeZUnit=\"\xc2\xb5m\"");
-  const auto image = ReadBytes(TiffBytes({.description = description.c_str()}));
-  ASSERT_TRUE(image.ok()) << image.status();
-  EXPECT_THAT(image->info.placement.spacing, ElementsAre(0.2, 0.25, 1.5));
-  EXPECT_EQ(image->info.unit, "um");
+  const auto image = MustRead(ReadBytes(TiffBytes({.description = description.c_str()})));
+  EXPECT_THAT(image.info.placement.spacing, ElementsAre(0.2, 0.25, 1.5));
+  EXPECT_EQ(image.info.unit, "um");
 }
 
 TEST(Tiff, TakesWhatOmeStatesOfThePhysicalSizeAndNoResolutionTags) {
@@ -178,25 +175,23 @@ TEST(Tiff, TakesWhatOmeStatesOfThePhysicalSizeAndNoResolutionTags) {
 }
 
 TEST(Tiff, ConvertsTheUnitsOfImageJToOne) {
-  const auto stack = ReadBytes(TiffBytes({.description = "ImageJ=1.53\nimages=2\nslices=2\nunit=nm"
-                                                         "\nzunit=um\nspacing=1.5\n"}));
-  ASSERT_TRUE(stack.ok()) << stack.status();
-  EXPECT_THAT(stack->info.placement.spacing, ElementsAre(0.25, 0.5, 1500));
-  EXPECT_EQ(stack->info.unit, "nm");
+  const auto stack =
+      MustRead(ReadBytes(TiffBytes({.description = "ImageJ=1.53\nimages=2\nslices=2\nunit=nm"
+                                                   "\nzunit=um\nspacing=1.5\n"})));
+  EXPECT_THAT(stack.info.placement.spacing, ElementsAre(0.25, 0.5, 1500));
+  EXPECT_EQ(stack.info.unit, "nm");
 }
 
 TEST(Tiff, TakesSpacingAndUnitFromImageJOnly) {
-  const auto plain = ReadBytes(TiffBytes({}));
-  ASSERT_TRUE(plain.ok()) << plain.status();
-  EXPECT_THAT(plain->info.placement.spacing, ElementsAre(1, 1, 1));
-  const auto printed = ReadBytes(TiffBytes({.description = "ImageJ=1.53\nimages=2\nunit=inch\n"}));
-  ASSERT_TRUE(printed.ok()) << printed.status();
-  EXPECT_THAT(printed->info.placement.spacing, ElementsAre(1, 1, 1));
-  const auto stack = ReadBytes(TiffBytes(
-      {.description = "ImageJ=1.53\nimages=2\nslices=2\nunit=micron\nspacing=1.5\nloop=false\n"}));
-  ASSERT_TRUE(stack.ok()) << stack.status();
-  EXPECT_THAT(stack->info.placement.spacing, ElementsAre(0.25, 0.5, 1.5));
-  EXPECT_EQ(stack->info.unit, "um");
+  const auto plain = MustRead(ReadBytes(TiffBytes({})));
+  EXPECT_THAT(plain.info.placement.spacing, ElementsAre(1, 1, 1));
+  const auto printed =
+      MustRead(ReadBytes(TiffBytes({.description = "ImageJ=1.53\nimages=2\nunit=inch\n"})));
+  EXPECT_THAT(printed.info.placement.spacing, ElementsAre(1, 1, 1));
+  const auto stack = MustRead(ReadBytes(TiffBytes(
+      {.description = "ImageJ=1.53\nimages=2\nslices=2\nunit=micron\nspacing=1.5\nloop=false\n"})));
+  EXPECT_THAT(stack.info.placement.spacing, ElementsAre(0.25, 0.5, 1.5));
+  EXPECT_EQ(stack.info.unit, "um");
 }
 
 // ImageJ writes the sign of micro in three ways; other bytes than words would end up in results.
@@ -208,10 +203,9 @@ TEST(Tiff, KnowsTheUnitsOfImageJ) {
   for (const auto& [written, read] : units) {
     const std::string description =
         std::string("ImageJ=1.53\nimages=2\nslices=2\nunit=") + written + "\nspacing=1.5\n";
-    const auto stack = ReadBytes(TiffBytes({.description = description.c_str()}));
-    ASSERT_TRUE(stack.ok()) << stack.status();
-    EXPECT_EQ(stack->info.unit, read);
-    EXPECT_THAT(stack->info.placement.spacing, ElementsAre(0.25, 0.5, 1.5));
+    const auto stack = MustRead(ReadBytes(TiffBytes({.description = description.c_str()})));
+    EXPECT_EQ(stack.info.unit, read);
+    EXPECT_THAT(stack.info.placement.spacing, ElementsAre(0.25, 0.5, 1.5));
   }
 }
 

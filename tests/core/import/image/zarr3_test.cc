@@ -23,6 +23,8 @@ using testing::ErrorOf;
 using ::testing::HasSubstr;
 using testing::ImageFolder;
 using testing::ReadsOfDamaged;
+using testing::Replaced;
+using testing::Replacements;
 
 // 2 x 3 x 4 voxels (z, y, x) in one chunk.
 const std::string kArray3 =
@@ -31,22 +33,13 @@ const std::string kArray3 =
     R"("chunk_key_encoding":{"name":"default","configuration":{"separator":"/"}},)"
     R"("fill_value":0,"codecs":[{"name":"bytes"}],"attributes":{},"dimension_names":null})";
 
-using Changes3 = std::vector<std::pair<std::string, std::string>>;
+std::string Array3(const Replacements& changes = {}) { return Replaced(kArray3, changes); }
 
-std::string Array3(const Changes3& changes = {}) {
-  std::string text = kArray3;
-  for (const auto& [from, to] : changes) {
-    EXPECT_NE(text.find(from), text.npos) << from;
-    text = absl::StrReplaceAll(text, {{from, to}});
-  }
-  return text;
-}
-
-Changes3 Codecs(const std::string& codecs) {
+Replacements Codecs(const std::string& codecs) {
   return {{R"([{"name":"bytes"}])", "[" + codecs + "]"}};
 }
 
-std::string ErrorOfArray3(const Changes3& changes) {
+std::string ErrorOfArray3(const Replacements& changes) {
   const ImageFolder folder("array3.zarr");
   folder.Write("zarr.json", Array3(changes));
   folder.Write("c/0/0/0", Counting<uint8_t>(24));
@@ -54,10 +47,9 @@ std::string ErrorOfArray3(const Changes3& changes) {
 }
 
 void ExpectCounted(const ImageFolder& folder) {
-  const auto image = folder.Read();
-  ASSERT_TRUE(image.ok()) << image.status();
-  EXPECT_EQ(image->info.size, (ImageSize{4, 3, 2}));
-  EXPECT_EQ(image->values, CountedTo(24));
+  const auto image = MustRead(folder.Read());
+  EXPECT_EQ(image.info.size, (ImageSize{4, 3, 2}));
+  EXPECT_EQ(image.values, CountedTo(24));
 }
 
 // CRC-32C bit by bit.
@@ -114,10 +106,9 @@ TEST(Zarr3, ReadsTheAxesThatItNames) {
   folder.Write("zarr.json",
                Array3({{R"("dimension_names":null)", R"("dimension_names":["x","y","z"])"}}));
   folder.Write("c/0/0/0", Counting<uint8_t>(24));
-  auto image = folder.Read();
-  ASSERT_TRUE(image.ok()) << image.status();
-  EXPECT_EQ(image->info.size, (ImageSize{2, 3, 4}));
-  EXPECT_EQ(image->values[1], 12);
+  auto image = MustRead(folder.Read());
+  EXPECT_EQ(image.info.size, (ImageSize{2, 3, 4}));
+  EXPECT_EQ(image.values[1], 12);
   folder.Write("zarr.json",
                Array3({{R"("dimension_names":null)", R"("dimension_names":["depth",null,"x"])"}}));
   ExpectCounted(folder);
@@ -203,9 +194,8 @@ TEST(Zarr3, ReadsShards) {
   const auto expect_read = [&](const std::string& sharding, const std::string& bytes) {
     folder.Write("zarr.json", Array3(Codecs(sharding)));
     folder.Write("c/0/0/0", bytes);
-    const auto image = folder.Read();
-    ASSERT_TRUE(image.ok()) << image.status();
-    EXPECT_EQ(image->values, CountedWithoutThird());
+    const auto image = MustRead(folder.Read());
+    EXPECT_EQ(image.values, CountedWithoutThird());
   };
   const Shard behind(0);
   expect_read(Sharding(kIndexed), behind.Chunks() + behind.index + Checksum(behind.index));
@@ -224,13 +214,12 @@ TEST(Zarr3, ReadsSeveralShards) {
   const std::string bytes = shard.Chunks() + shard.index + Checksum(shard.index);
   folder.Write("c/0/0/0", bytes);
   folder.Write("c/0/0/2", bytes);
-  const auto image = folder.Read();
-  ASSERT_TRUE(image.ok()) << image.status();
+  const auto image = MustRead(folder.Read());
   const std::vector<double> once = CountedWithoutThird();
-  ASSERT_EQ(image->values.size(), 66);
+  ASSERT_EQ(image.values.size(), 66);
   for (size_t n = 0; n < 66; ++n) {
     const size_t x = n % 11, row = n / 11;
-    EXPECT_EQ(image->values[n], x / 4 == 1 ? 0 : once[4 * row + x % 4]) << n;
+    EXPECT_EQ(image.values[n], x / 4 == 1 ? 0 : once[4 * row + x % 4]) << n;
   }
 }
 

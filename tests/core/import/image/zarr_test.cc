@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "absl/strings/str_replace.h"
 #include "core/import/image/slice_buffer.h"
 #include "tests/core/import/image/image_folder.h"
 
@@ -23,24 +22,15 @@ using testing::ErrorOf;
 using ::testing::HasSubstr;
 using testing::ImageFolder;
 using testing::ReadsOfDamaged;
+using testing::Replaced;
+using testing::Replacements;
 
 // 2 x 3 x 4 voxels (z, y, x) in one chunk.
 const std::string kArray =
     R"({"zarr_format":2,"shape":[2,3,4],"chunks":[2,3,4],"dtype":"|u1","compressor":null,)"
     R"("fill_value":0,"order":"C","filters":null})";
 
-struct Replaced {
-  std::string from, to;
-};
-
-std::string Array(const std::vector<Replaced>& changes = {}) {
-  std::string text = kArray;
-  for (const auto& [from, to] : changes) {
-    EXPECT_NE(text.find(from), text.npos) << from;
-    text = absl::StrReplaceAll(text, {{from, to}});
-  }
-  return text;
-}
+std::string Array(const Replacements& changes = {}) { return Replaced(kArray, changes); }
 
 ImageOptions Choice(std::optional<int64_t> channel, std::optional<int64_t> time,
                     std::optional<int64_t> level) {
@@ -51,7 +41,7 @@ ImageOptions Choice(std::optional<int64_t> channel, std::optional<int64_t> time,
   return options;
 }
 
-std::string ErrorOfArray(const std::vector<Replaced>& changes) {
+std::string ErrorOfArray(const Replacements& changes) {
   const ImageFolder folder("array.zarr");
   folder.Write(".zarray", Array(changes));
   folder.Write("0.0.0", Counting<uint8_t>(24));
@@ -71,11 +61,10 @@ TEST(Zarr, IsReadFromOneChunk) {
   const ImageFolder folder("plain.zarr");
   folder.Write(".zarray", Array());
   folder.Write("0.0.0", Counting<uint8_t>(24));
-  const auto image = folder.Read();
-  ASSERT_TRUE(image.ok()) << image.status();
-  EXPECT_EQ(image->info.format, "Zarr");
-  EXPECT_EQ(image->info.size, (ImageSize{4, 3, 2}));
-  EXPECT_EQ(image->values, CountedTo(24));
+  const auto image = MustRead(folder.Read());
+  EXPECT_EQ(image.info.format, "Zarr");
+  EXPECT_EQ(image.info.size, (ImageSize{4, 3, 2}));
+  EXPECT_EQ(image.values, CountedTo(24));
 }
 
 TEST(Zarr, HasTheFillValueWhereChunksAreMissing) {
@@ -83,11 +72,10 @@ TEST(Zarr, HasTheFillValueWhereChunksAreMissing) {
   folder.Write(".zarray", Array({{"[2,3,4],\"dtype\":\"|u1\"", "[1,3,4],\"dtype\":\">i2\""},
                                  {"\"fill_value\":0", "\"fill_value\":-7"}}));
   folder.Write("1.0.0", Counting<int16_t>(12, std::endian::big));
-  const auto image = folder.Read();
-  ASSERT_TRUE(image.ok()) << image.status();
+  const auto image = MustRead(folder.Read());
   std::vector<double> expected(12, -7);
   for (int n = 0; n < 12; ++n) expected.push_back(n);
-  EXPECT_EQ(image->values, expected);
+  EXPECT_EQ(image.values, expected);
 }
 
 TEST(Zarr, IsReadInSeveralGoesWhereASlabIsTooLarge) {
@@ -96,9 +84,8 @@ TEST(Zarr, IsReadInSeveralGoesWhereASlabIsTooLarge) {
   folder.Write("0.0.0", Counting<uint8_t>(24));
   ImageOptions options;
   options.limits.max_chunk_slab_bytes = 12;
-  const auto image = folder.Read(options);
-  ASSERT_TRUE(image.ok()) << image.status();
-  EXPECT_EQ(image->values, CountedTo(24));
+  const auto image = MustRead(folder.Read(options));
+  EXPECT_EQ(image.values, CountedTo(24));
 }
 
 TEST(Zarr, ChoosesLevelChannelAndTime) {
@@ -118,10 +105,9 @@ TEST(Zarr, ChoosesLevelChannelAndTime) {
               HasSubstr("channel 2 is not there: the image has 2"));
   EXPECT_THAT(ErrorOf(folder, Choice({}, {}, 2)),
               HasSubstr("level 2 is not there: the image has 2"));
-  const auto image = folder.Read(Choice(1, 1, 1));
-  ASSERT_TRUE(image.ok()) << image.status();
-  EXPECT_EQ(image->info.size, (ImageSize{2, 2, 1}));
-  EXPECT_THAT(image->values, ElementsAre(4, 5, 6, 7));
+  const auto image = MustRead(folder.Read(Choice(1, 1, 1)));
+  EXPECT_EQ(image.info.size, (ImageSize{2, 2, 1}));
+  EXPECT_THAT(image.values, ElementsAre(4, 5, 6, 7));
 }
 
 TEST(Zarr, LiesWhereItsTransformationsPlaceIt) {
@@ -159,13 +145,12 @@ TEST(Zarr, GivesHalfPrecisionAsFloats) {
                                order[0] == '<' ? std::endian::little : std::endian::big);
     }
     folder.Write("0.0.0", voxels + voxels + voxels);
-    const auto image = folder.Read();
-    ASSERT_TRUE(image.ok()) << image.status();
-    EXPECT_EQ(image->info.type, VoxelType::kFloat32);
-    ASSERT_EQ(image->values.size(), 48);
-    EXPECT_THAT(std::vector<double>(image->values.begin(), image->values.begin() + 8),
+    const auto image = MustRead(folder.Read());
+    EXPECT_EQ(image.info.type, VoxelType::kFloat32);
+    ASSERT_EQ(image.values.size(), 48);
+    EXPECT_THAT(std::vector<double>(image.values.begin(), image.values.begin() + 8),
                 ElementsAre(0, 1, -1.5, 65504, 0x1p-24, -0x1p-14, -HUGE_VAL, ::testing::IsNan()));
-    EXPECT_EQ(image->values.back(), -2.099609375);  // the missing chunk
+    EXPECT_EQ(image.values.back(), -2.099609375);  // the missing chunk
   }
 }
 
@@ -288,17 +273,15 @@ TEST(Zarr, OfALevelLiesWhereTheGroupAbovePlacesIt) {
     folder.Write(std::string(level) + "/0.0.0", Counting<uint8_t>(24));
   }
   for (const char* name : {"/1", "/1/", "/./1"}) {
-    const auto image = testing::ReadAll(OpenImage(folder.path() + name));
-    ASSERT_TRUE(image.ok()) << image.status();
-    EXPECT_THAT(image->info.placement.spacing, ElementsAre(1, 2, 4));
-    EXPECT_EQ(image->info.unit, "um");
-    EXPECT_EQ(image->values, CountedTo(24));
+    const auto image = MustRead(testing::ReadAll(OpenImage(folder.path() + name)));
+    EXPECT_THAT(image.info.placement.spacing, ElementsAre(1, 2, 4));
+    EXPECT_EQ(image.info.unit, "um");
+    EXPECT_EQ(image.values, CountedTo(24));
   }
   EXPECT_THAT(std::string(OpenImage(folder.path() + "/2").status().message()),
               HasSubstr("neither a scale nor"));
-  const auto other = testing::ReadAll(OpenImage(folder.path() + "/other"));
-  ASSERT_TRUE(other.ok()) << other.status();
-  EXPECT_EQ(other->info.unit, "");
+  const auto other = MustRead(testing::ReadAll(OpenImage(folder.path() + "/other")));
+  EXPECT_EQ(other.info.unit, "");
 }
 
 // Whatever one changed or lost byte of the metadata makes of them: an error or an image, no crash.
