@@ -172,18 +172,15 @@ const Wrong kWrong[] = {
      "-: standard input is not read"},
     {"object_without_its_option", "view a.json b.off -o a.html",
      "unexpected argument: b.off; view takes one RESULT\nbccskel: hint: --object b.off names the "
-     "mesh, "
-     "volume or image that the result was made from\n"},
+     "mesh, volume or image that the result was made from\n"},
     {"object_without_its_option_in_a_picture", "render -o a.png a.json b.off",
      "unexpected argument: b.off; render takes one RESULT\nbccskel: hint: --object b.off names"},
     {"second_input", "skeletonize a.off b.off -o a.swc",
      "unexpected argument: b.off; skeletonize takes one INPUT\nbccskel: hint: run it once for each "
-     "INPUT, "
-     "and write -o before each output\n"},
+     "INPUT, and write -o before each output\n"},
     {"output_without_its_option", "convert a.json -o a.swc b.csv c.vtp",
      "unexpected arguments: b.csv, c.vtp; convert takes one RESULT\nbccskel: hint: run it once for "
-     "each "
-     "RESULT, and write -o before each output\n"},
+     "each RESULT, and write -o before each output\n"},
     {"second_file", "info a.off b.off",
      "unexpected argument: b.off; info takes one FILE\nbccskel: hint: run it once for each FILE\n"},
     {"no_spacing", "voxelize a.off -o a.exr --spacing 0",
@@ -195,8 +192,8 @@ const Wrong kWrong[] = {
     {"no_nested_command", "bench", "a command is required: core, server\n"},
     {"unknown_nested_command", "bench cores", "there is no command bench cores"},
     {"negative_label", "skeletonize a.tif -o a.swc --label 4,-5",
-     "--label -5: must be a whole number from 1 on or a range, such as 3,7 or 1-85; --range "
-     "takes negative values"},
+     "--label -5: must be a whole number from 1 on or a range, such as 3,7 or 1-85; --range takes "
+     "negative values"},
     {"background_alone", "info a.tif --label 0",
      "0 is the background, whose voxels only --range 0,0 selects"},
     {"background_to_itself", "labels a.tif -o a.vtp --label 0-0",
@@ -217,8 +214,8 @@ const Wrong kWrong[] = {
      "--denoise 2.5: must be a whole number"},
     {"end_of_a_range_that_would_be_rounded",
      "skeletonize a.npy -o a.swc --range 1,9007199254740993",
-     "--range: cannot tell 9007199254740993 from 9007199254740992: bounds are exact up "
-     "to 2^53 = 9007199254740992; --label takes larger values"},
+     "--range: cannot tell 9007199254740993 from 9007199254740992: bounds are exact up to 2^53 = "
+     "9007199254740992; --label takes larger values"},
     {"threshold_that_would_be_rounded",
      "skeletonize a.npy -o a.swc --threshold 18446744073709551615",
      "--threshold: cannot tell 18446744073709551615 from 18446744073709551616"},
@@ -232,8 +229,7 @@ const Wrong kWrong[] = {
      "--voxel-size 1,2: must be one number, or three separated by commas"},
     {"voxels_of_three_words", "skeletonize a.tif -o a.swc --voxel-size 1 1 2.5",
      "unexpected arguments: 1, 2.5; skeletonize takes one INPUT\nbccskel: hint: separate the "
-     "numbers of an "
-     "option by commas, such as --voxel-size 1,1,2.5\n"},
+     "numbers of an option by commas, such as --voxel-size 1,1,2.5\n"},
     {"voxels_of_three_words_before_the_file", "info --voxel-size 1 1 2.5 a.tif",
      "hint: separate the numbers of an option by commas, such as --voxel-size 1,1,2.5\n"},
     {"voxels_of_two_words_of_an_object", "view a.json --object a.tif -o a.html --voxel-size 1 2",
@@ -281,8 +277,7 @@ const Wrong kWrong[] = {
      "--object and --output are required\nbccskel: hint: --object names the mesh"},
     {"range_of_labels", "labels a.tif -o a.vtp --range 1,2",
      "labels has no option --range\nbccskel: hint: labels makes an object of each value, or of "
-     "those "
-     "of --label; skeletonize makes one object of a range or threshold\n"},
+     "those of --label; skeletonize makes one object of a range or threshold\n"},
     {"threshold_of_labels", "labels a.tif -o a.vtp --threshold=5",
      "hint: labels makes an object of each"},
     {"unknown_bench", "bench core --shape sofa", "--shape sofa: must be ball"},
@@ -294,8 +289,8 @@ INSTANTIATE_TEST_SUITE_P(Every, WrongCommandLineTest, testing::ValuesIn(kWrong),
 
 TEST(WrongCommandLine, NamesTheCommasThatNumbersInOneWordLack) {
   const Parsed parsed = Parse({"info", "a.tif", "--voxel-size", "1 1 2.5"});
-  EXPECT_THAT(parsed.err, HasSubstr("--voxel-size 1 1 2.5: must be one number, or three separated "
-                                    "by commas"));
+  EXPECT_THAT(parsed.err,
+              HasSubstr("--voxel-size 1 1 2.5: must be one number, or three separated by commas"));
 }
 
 }  // namespace

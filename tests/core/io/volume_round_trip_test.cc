@@ -30,8 +30,18 @@ std::string NameOf(const testing::TestParamInfo<Coding>& info) {
 
 class VolumeRoundTrip : public testing::TestWithParam<Coding> {
  protected:
-  absl::StatusOr<std::string> Encode(const Volume& volume) {
-    return EncodeVolume(volume, {GetParam().encoding, GetParam().compression});
+  // The bytes of a volume and the header that a receiver makes of them.
+  struct Encoded {
+    std::string bytes;
+    VolumeHeader header;
+  };
+
+  Encoded Encode(const Volume& volume) {
+    auto bytes = EncodeVolume(volume, {GetParam().encoding, GetParam().compression});
+    EXPECT_TRUE(bytes.ok()) << bytes.status();
+    auto header = HeaderOf(volume, *bytes);
+    EXPECT_TRUE(header.ok()) << header.status();
+    return {*std::move(bytes), *std::move(header)};
   }
 
   absl::StatusOr<VolumeHeader> HeaderOf(const Volume& volume, const std::string& bytes) {
@@ -56,11 +66,8 @@ class VolumeRoundTrip : public testing::TestWithParam<Coding> {
 
 TEST_P(VolumeRoundTrip, GivesTheSameVolumeBack) {
   for (const Volume& volume : EdgeVolumes()) {
-    const auto bytes = Encode(volume);
-    ASSERT_TRUE(bytes.ok()) << bytes.status();
-    const auto header = HeaderOf(volume, *bytes);
-    ASSERT_TRUE(header.ok()) << header.status();
-    const auto back = DecodeInPieces(*header, *bytes, bytes->size() + 1);
+    const auto [bytes, header] = Encode(volume);
+    const auto back = DecodeInPieces(header, bytes, bytes.size() + 1);
     ASSERT_TRUE(back.ok()) << back.status();
     EXPECT_EQ(*back, volume) << volume.extent().nx << " x " << volume.extent().ny << " x "
                              << volume.extent().nz;
@@ -70,12 +77,9 @@ TEST_P(VolumeRoundTrip, GivesTheSameVolumeBack) {
 
 TEST_P(VolumeRoundTrip, DoesNotDependOnHowTheBytesAreCut) {
   const Volume volume = RandomVolume({37, 11, 45}, 7);
-  const auto bytes = Encode(volume);
-  ASSERT_TRUE(bytes.ok()) << bytes.status();
-  const auto header = HeaderOf(volume, *bytes);
-  ASSERT_TRUE(header.ok()) << header.status();
+  const auto [bytes, header] = Encode(volume);
   for (size_t piece : {1u, 3u, 79u, 160u, 161u, 4096u}) {
-    const auto back = DecodeInPieces(*header, *bytes, piece);
+    const auto back = DecodeInPieces(header, bytes, piece);
     ASSERT_TRUE(back.ok()) << back.status();
     EXPECT_EQ(*back, volume) << "pieces of " << piece;
   }
@@ -83,55 +87,45 @@ TEST_P(VolumeRoundTrip, DoesNotDependOnHowTheBytesAreCut) {
 
 TEST_P(VolumeRoundTrip, StaysWithinTheSizesThatTheHeaderPromises) {
   for (const Volume& volume : EdgeVolumes()) {
-    const auto bytes = Encode(volume);
-    ASSERT_TRUE(bytes.ok()) << bytes.status();
-    const auto header = HeaderOf(volume, *bytes);
-    ASSERT_TRUE(header.ok()) << header.status();
-    EXPECT_LE(bytes->size(), header->max_encoded_bytes);
-    EXPECT_LE(volume.brick_count(), header->max_bricks);
-    EXPECT_EQ(header->extent, volume.extent());
-    EXPECT_EQ(header->placement, volume.placement());
-    EXPECT_EQ(header->compression, GetParam().compression);
+    const auto [bytes, header] = Encode(volume);
+    EXPECT_LE(bytes.size(), header.max_encoded_bytes);
+    EXPECT_LE(volume.brick_count(), header.max_bricks);
+    EXPECT_EQ(header.extent, volume.extent());
+    EXPECT_EQ(header.placement, volume.placement());
+    EXPECT_EQ(header.compression, GetParam().compression);
   }
 }
 
 TEST_P(VolumeRoundTrip, RefusesBytesThatEndEarlyOrLate) {
   const Volume volume = RandomVolume({20, 6, 40}, 3);
-  const auto bytes = Encode(volume);
-  ASSERT_TRUE(bytes.ok()) << bytes.status();
-  const auto header = HeaderOf(volume, *bytes);
-  ASSERT_TRUE(header.ok()) << header.status();
-  const auto early = DecodeInPieces(*header, bytes->substr(0, bytes->size() - 1), 100);
+  const auto [bytes, header] = Encode(volume);
+  const auto early = DecodeInPieces(header, bytes.substr(0, bytes.size() - 1), 100);
   EXPECT_EQ(early.status().code(), absl::StatusCode::kInvalidArgument) << early.status();
-  const auto late = DecodeInPieces(*header, *bytes + '\0', 100);
+  const auto late = DecodeInPieces(header, bytes + '\0', 100);
   EXPECT_EQ(late.status().code(), absl::StatusCode::kInvalidArgument) << late.status();
 }
 
 TEST_P(VolumeRoundTrip, StopsWhenTheContextSaysSo) {
   const Volume volume = RandomVolume({20, 6, 40}, 3);
   const exec::Context stopped = test::Stopped();
-  const auto bytes = Encode(volume);
-  ASSERT_TRUE(bytes.ok()) << bytes.status();
-  auto decoder = MakeVolumeDecoder(*HeaderOf(volume, *bytes), {});
+  const auto [bytes, header] = Encode(volume);
+  auto decoder = MakeVolumeDecoder(header, {});
   ASSERT_TRUE(decoder.ok()) << decoder.status();
-  ASSERT_TRUE((*decoder)->Append(BytesOf(*bytes)).ok());
+  ASSERT_TRUE((*decoder)->Append(BytesOf(bytes)).ok());
   EXPECT_EQ((*decoder)->Finish(stopped).status().code(), absl::StatusCode::kCancelled);
 }
 
 TEST_P(VolumeRoundTrip, RefusesMoreBricksThanTheLimit) {
   const Volume volume = FullVolume({40, 10, 20});
-  const auto bytes = Encode(volume);
-  ASSERT_TRUE(bytes.ok()) << bytes.status();
+  auto [bytes, header] = Encode(volume);
   const VolumeLimits limits = {.max_bricks = volume.brick_count() - 1};
-  auto header = HeaderOf(volume, *bytes);
-  ASSERT_TRUE(header.ok()) << header.status();
-  header->declared_bricks.reset();  // what a sender that declares nothing gets
-  auto decoder = MakeVolumeDecoder(*header, limits);
+  header.declared_bricks.reset();  // what a sender that declares nothing gets
+  auto decoder = MakeVolumeDecoder(header, limits);
   if (GetParam().encoding == VolumeEncoding::kRawPlanes) {
     ASSERT_TRUE(decoder.ok()) << decoder.status();
-    EXPECT_EQ((*decoder)->Append(BytesOf(*bytes)).code(), absl::StatusCode::kResourceExhausted);
+    EXPECT_EQ((*decoder)->Append(BytesOf(bytes)).code(), absl::StatusCode::kResourceExhausted);
   } else {
-    EXPECT_EQ(DecodeVolume(GetParam().encoding, *bytes, limits).status().code(),
+    EXPECT_EQ(DecodeVolume(GetParam().encoding, bytes, limits).status().code(),
               absl::StatusCode::kResourceExhausted);
   }
 }

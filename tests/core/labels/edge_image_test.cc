@@ -202,6 +202,18 @@ SkeletonNode NodeAt(int32_t x) {
   node.at = CurvePointAt(x);
   return node;
 }
+// A graph of these nodes in the place of the example's.
+SkeletonGraph GraphOf(const Example& example, std::vector<SkeletonNode> nodes) {
+  SkeletonGraph graph;
+  graph.placement = example.graph.placement;
+  graph.nodes = std::move(nodes);
+  return graph;
+}
+
+absl::StatusOr<SparseImage> NearestEdgesOf(const Example& example, const SkeletonGraph& graph,
+                                           const exec::Context& context = {}) {
+  return NearestEdges(example.volume.grid, example.object(), graph, MaskAdjacency::k26, context);
+}
 
 TEST(NearestEdges, GiveNodesWithoutEdgesTheNumbersBehindTheEdges) {
   LabelVolume volume = test::EmptyLabels(32, 3, 3);
@@ -209,14 +221,11 @@ TEST(NearestEdges, GiveNodesWithoutEdgesTheNumbersBehindTheEdges) {
   for (int32_t x = 4; x < 30; ++x) volume.At(x, 1, 1) = 1;
   const Example example = ExampleOf(std::move(volume));
   // An edge along the bar, a node alone in the single voxel.
-  SkeletonGraph graph;
-  graph.placement = example.graph.placement;
-  graph.nodes = {NodeAt(9), NodeAt(59), NodeAt(3)};
+  SkeletonGraph graph = GraphOf(example, {NodeAt(9), NodeAt(59), NodeAt(3)});
   graph.edges = {{0, 1, 0, 26}};
   for (int32_t x = 9; x <= 59; x += 2) graph.points.push_back(CurvePointAt(x));
-  for (const auto& image :
-       {NearestEdges(example.volume.grid, example.object(), graph, MaskAdjacency::k26, {}),
-        DrawSkeleton(example.volume.grid, example.object(), graph)}) {
+  for (const auto& image : {NearestEdgesOf(example, graph),
+                            DrawSkeleton(example.volume.grid, example.object(), graph)}) {
     ASSERT_TRUE(image.ok());
     EXPECT_THAT(*image,
                 ::testing::ElementsAre(ValueRun{{1, 1, 1, 2}, 4}, ValueRun{{1, 1, 4, 30}, 1}));
@@ -227,11 +236,7 @@ TEST(NearestEdges, LeaveOutComponentsWithoutCurve) {
   LabelVolume volume = test::EmptyLabels(8, 3, 3);
   volume.At(1, 1, 1) = volume.At(5, 1, 1) = 1;
   const Example example = ExampleOf(std::move(volume));
-  SkeletonGraph graph;
-  graph.placement = example.graph.placement;
-  graph.nodes = {NodeAt(3)};
-  const auto image =
-      NearestEdges(example.volume.grid, example.object(), graph, MaskAdjacency::k26, {});
+  const auto image = NearestEdgesOf(example, GraphOf(example, {NodeAt(3)}));
   ASSERT_TRUE(image.ok());
   EXPECT_THAT(*image, ::testing::ElementsAre(ValueRun{{1, 1, 1, 2}, 1}));
 }
@@ -241,13 +246,11 @@ TEST(DrawSkeleton, PutsAPointBesideTheObjectIntoItsNextVoxelIfThatIsOneAway) {
   LabelVolume volume = test::EmptyLabels(8, 3, 3);
   volume.At(1, 1, 1) = 1;
   const Example example = ExampleOf(std::move(volume));
-  SkeletonGraph graph;
-  graph.placement = example.graph.placement;
-  graph.nodes = {NodeAt(5)};
-  EXPECT_THAT(*DrawSkeleton(example.volume.grid, example.object(), graph),
-              ::testing::ElementsAre(ValueRun{{1, 1, 1, 2}, 1}));
-  graph.nodes = {NodeAt(7)};
-  EXPECT_THAT(*DrawSkeleton(example.volume.grid, example.object(), graph), ::testing::IsEmpty());
+  const auto drawn = [&example](int32_t x) {
+    return *DrawSkeleton(example.volume.grid, example.object(), GraphOf(example, {NodeAt(x)}));
+  };
+  EXPECT_THAT(drawn(5), ::testing::ElementsAre(ValueRun{{1, 1, 1, 2}, 1}));
+  EXPECT_THAT(drawn(7), ::testing::IsEmpty());
 }
 
 TEST(NearestEdges, KeepRunsOfARowApart) {
@@ -255,11 +258,7 @@ TEST(NearestEdges, KeepRunsOfARowApart) {
   for (int32_t x : {1, 2, 3}) volume.At(x, 1, 1) = 1;
   volume.At(1, 2, 1) = volume.At(3, 2, 1) = 1;
   const Example example = ExampleOf(std::move(volume));
-  SkeletonGraph graph;
-  graph.placement = example.graph.placement;
-  graph.nodes = {NodeAt(5)};
-  const auto image =
-      NearestEdges(example.volume.grid, example.object(), graph, MaskAdjacency::k26, {});
+  const auto image = NearestEdgesOf(example, GraphOf(example, {NodeAt(5)}));
   ASSERT_TRUE(image.ok());
   EXPECT_THAT(*image, ::testing::ElementsAre(ValueRun{{1, 1, 1, 4}, 1}, ValueRun{{1, 2, 1, 2}, 1},
                                              ValueRun{{1, 2, 3, 4}, 1}));
@@ -268,20 +267,14 @@ TEST(NearestEdges, KeepRunsOfARowApart) {
 TEST(NearestEdges, StopWhenCancelled) {
   const Example example = Balls({});
   const exec::Context context = test::Stopped();
-  EXPECT_EQ(NearestEdges(example.volume.grid, example.object(), example.graph, MaskAdjacency::k26,
-                         context)
-                .status()
-                .code(),
+  EXPECT_EQ(NearestEdgesOf(example, example.graph, context).status().code(),
             absl::StatusCode::kCancelled);
 }
 
 TEST(NearestEdges, RefuseADirectionWithoutInverse) {
   Example example = Balls({});
   example.volume.grid.placement.direction = {1, 0, 0, 1, 0, 0, 0, 0, 1};
-  EXPECT_THAT(std::string(NearestEdges(example.volume.grid, example.object(), example.graph,
-                                       MaskAdjacency::k26, {})
-                              .status()
-                              .message()),
+  EXPECT_THAT(std::string(NearestEdgesOf(example, example.graph).status().message()),
               HasSubstr("no inverse"));
 }
 

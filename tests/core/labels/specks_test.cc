@@ -12,7 +12,6 @@ namespace bccskel {
 namespace {
 
 using test::Voxel;
-using ::testing::ElementsAre;
 
 // How many of four separate blocks stay: of 27, 64, 100 and 125 voxels.
 int64_t StayingBlocks(const SkeletonizeOptions& options, const MaskOptions& mask, double slice) {
