@@ -131,17 +131,13 @@ TEST(VoxelNoise, KeepsTheTopology) {
                                {{8, 28, 8}, {8, 8, 8}, 3, 3}}};
   const VoxelMask clean = SampleOnVoxels(ring);
   const VoxelMask noisy = WithTopologyKeepingNoise(clean, 0.3, 1);
-  test::ReferenceMask reference{clean.grid().nx, clean.grid().ny, clean.grid().nz, {}};
-  reference.voxels.resize(static_cast<size_t>(reference.nx * reference.ny * reference.nz));
   int changed = 0;
-  for (int32_t z = 0; z < reference.nz; ++z) {
-    for (int32_t y = 0; y < reference.ny; ++y) {
-      for (int32_t x = 0; x < reference.nx; ++x) {
-        reference.voxels[reference.Index(x, y, z)] = noisy.Holds({x, y, z}) ? 1 : 0;
-        changed += noisy.Holds({x, y, z}) != clean.Holds({x, y, z}) ? 1 : 0;
-      }
-    }
-  }
+  const auto is_in = [&](int32_t x, int32_t y, int32_t z) {
+    changed += noisy.Holds({x, y, z}) != clean.Holds({x, y, z}) ? 1 : 0;
+    return noisy.Holds({x, y, z});
+  };
+  const MaskGrid& grid = clean.grid();
+  const auto reference = test::MaskWhere(grid.nx, grid.ny, grid.nz, is_in);
   EXPECT_GT(changed, 200);
   EXPECT_EQ(test::ReferenceMaskBetti(reference, test::ObjectReach::kCorner26),
             (BettiNumbers{1, 1, 0}));

@@ -28,6 +28,18 @@ struct ReferenceMask {
   }
 };
 
+// The voxels for which `is_in(x, y, z)` holds; asks in the order of the voxels.
+template <typename IsIn>
+ReferenceMask MaskWhere(int32_t nx, int32_t ny, int32_t nz, const IsIn& is_in) {
+  ReferenceMask mask{nx, ny, nz, {}};
+  for (int32_t z = 0; z < nz; ++z) {
+    for (int32_t y = 0; y < ny; ++y) {
+      for (int32_t x = 0; x < nx; ++x) mask.voxels.push_back(is_in(x, y, z) ? 1 : 0);
+    }
+  }
+  return mask;
+}
+
 // Voxel n is set when bit n of `bits` is. Needs: at most 64 voxels.
 ReferenceMask MaskOfBits(int32_t nx, int32_t ny, int32_t nz, uint64_t bits);
 // Each voxel with probability `density`; the same for the same seed on every machine.

@@ -222,16 +222,10 @@ TEST(ExactConversion, KeepsWorldCoordinates) {
 // The same mask of voxels that are cut into parts.
 ReferenceMask InParts(const ReferenceMask& mask, const VoxelParts& parts) {
   const auto [px, py, pz] = parts;
-  ReferenceMask cut = MaskOfBits(px * mask.nx, py * mask.ny, 0, 0);
-  cut.nz = pz * mask.nz;
-  for (int32_t z = 0; z < cut.nz; ++z) {
-    for (int32_t y = 0; y < cut.ny; ++y) {
-      for (int32_t x = 0; x < cut.nx; ++x) {
-        cut.voxels.push_back(mask.Contains(x / px, y / py, z / pz) ? 1 : 0);
-      }
-    }
-  }
-  return cut;
+  const auto is_in = [&mask, px = px, py = py, pz = pz](int32_t x, int32_t y, int32_t z) {
+    return mask.Contains(x / px, y / py, z / pz);
+  };
+  return test::MaskWhere(px * mask.nx, py * mask.ny, pz * mask.nz, is_in);
 }
 
 TEST(ExactConversion, OfLongVoxelsIsThatOfTheirSlabs) {

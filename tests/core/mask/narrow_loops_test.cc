@@ -72,18 +72,15 @@ TEST(NarrowLoops, AreCountedByTheWidthOfTheirTunnels) {
 // the others.
 SkeletonGraph Frame(std::array<int32_t, 2> hole, int32_t limb, const std::array<double, 3>& voxel) {
   const auto [width, height] = hole;
-  test::ReferenceMask mask{width + 4 * limb + 4, height + 4 * limb + 4, 3 * limb + 4, {}};
-  mask.voxels.resize(static_cast<size_t>(mask.nx) * static_cast<size_t>(mask.ny) *
-                     static_cast<size_t>(mask.nz));
-  for (int32_t z = 2; z < 2 + 3 * limb; ++z) {
-    for (int32_t y = 2; y < 2 + height + 4 * limb; ++y) {
-      for (int32_t x = 2; x < 2 + width + 4 * limb; ++x) {
-        const int32_t right = x - 2 - limb, up = y - 2 - limb;
-        const bool is_hole = 0 <= right && right < width && 0 <= up && up < height;
-        mask.voxels[mask.Index(x, y, z)] = is_hole ? 0 : 1;
-      }
-    }
-  }
+  const LatticePoint edges = {width + 4 * limb, height + 4 * limb, 3 * limb};
+  const LatticeBox plate = {{2, 2, 2}, LatticePoint{1, 1, 1} + edges};
+  const auto mask =
+      test::MaskWhere(edges.x + 4, edges.y + 4, edges.z + 4,
+                      [&, width = width, height = height](int32_t x, int32_t y, int32_t z) {
+                        const int32_t right = x - 2 - limb, up = y - 2 - limb;
+                        const bool is_hole = 0 <= right && right < width && 0 <= up && up < height;
+                        return plate.Contains(LatticePoint{x, y, z}) && !is_hole;
+                      });
   Placement placement;
   placement.spacing = voxel;
   return Skeletonize(Converted(mask, {}, placement).volume, {.source = ObjectSource::kVoxels}, {})
@@ -106,15 +103,10 @@ TEST(NarrowLoops, AreMeasuredBetweenLimbsOfAnyThickness) {
 
 // A plate with 16 holes of a voxel; those inside the grid have four sides.
 SkeletonizeResult GridOfHoles() {
-  test::ReferenceMask mask{50, 50, 11, std::vector<uint8_t>(50 * 50 * 11)};
-  const auto is_hole = [](int32_t at) { return at % 9 == 0; };
-  for (int32_t z = 2; z < 9; ++z) {
-    for (int32_t y = 2; y < 44; ++y) {
-      for (int32_t x = 2; x < 44; ++x) {
-        mask.voxels[mask.Index(x, y, z)] = is_hole(x) && is_hole(y) ? 0 : 1;
-      }
-    }
-  }
+  constexpr LatticeBox kPlate = {{2, 2, 2}, {43, 43, 8}};
+  const auto mask = test::MaskWhere(50, 50, 11, [&](int32_t x, int32_t y, int32_t z) {
+    return kPlate.Contains(LatticePoint{x, y, z}) && (x % 9 != 0 || y % 9 != 0);
+  });
   return *Skeletonize(Converted(mask, {}, {}).volume, {.source = ObjectSource::kVoxels}, {});
 }
 
@@ -184,32 +176,24 @@ test::ReferenceMask RodsInSlices(int32_t step, bool noisy) {
     const auto square = [&](int32_t a, int32_t b) { return off(a) * off(a) + off(b) * off(b); };
     return std::min({square(x, y), square(y, z), square(z, x)}) < kRadius * kRadius;
   };
-  test::ReferenceMask mask{kEdge, kEdge, kEdge / step, {}};
-  mask.voxels.resize(static_cast<size_t>(mask.nx) * static_cast<size_t>(mask.ny) *
-                     static_cast<size_t>(mask.nz));
-  const auto for_each = [&](int32_t margin, auto visit) {
-    for (int32_t z = margin; z < mask.nz - margin; ++z) {
-      for (int32_t y = margin; y < mask.ny - margin; ++y) {
-        for (int32_t x = margin; x < mask.nx - margin; ++x) visit(x, y, z);
-      }
-    }
-  };
-  for_each(0, [&](int32_t x, int32_t y, int32_t z) {
-    int32_t inside = 0;
-    for (int32_t n = 0; n < step; ++n) inside += is_in(x, y, step * z + n) ? 1 : 0;
-    mask.voxels[mask.Index(x, y, z)] = 2 * inside >= step ? 1 : 0;
-  });
-  if (!noisy) return mask;
-  const std::vector<uint8_t> clean = mask.voxels;
+  const auto clean =
+      test::MaskWhere(kEdge, kEdge, kEdge / step, [&](int32_t x, int32_t y, int32_t z) {
+        int32_t inside = 0;
+        for (int32_t n = 0; n < step; ++n) inside += is_in(x, y, step * z + n) ? 1 : 0;
+        return 2 * inside >= step;
+      });
+  if (!noisy) return clean;
+  const LatticeBox inner = {{1, 1, 1}, {clean.nx - 2, clean.ny - 2, clean.nz - 2}};
   std::mt19937 random(1);
-  for_each(1, [&](int32_t x, int32_t y, int32_t z) {
+  return test::MaskWhere(clean.nx, clean.ny, clean.nz, [&](int32_t x, int32_t y, int32_t z) {
+    if (!inner.Contains(LatticePoint{x, y, z})) return clean.Contains(x, y, z);
     int32_t inside = 0;
     for (int32_t n = 0; n < 27; ++n) {
-      inside += clean[mask.Index(x + n % 3 - 1, y + n / 3 % 3 - 1, z + n / 9 - 1)];
+      inside += clean.Contains(x + n % 3 - 1, y + n / 3 % 3 - 1, z + n / 9 - 1) ? 1 : 0;
     }
-    if (inside > 0 && inside < 27 && random() % 8 == 0) mask.voxels[mask.Index(x, y, z)] ^= 1;
+    const bool flips = inside > 0 && inside < 27 && random() % 8 == 0;
+    return clean.Contains(x, y, z) != flips;
   });
-  return mask;
 }
 
 TEST(NarrowLoops, OfNoiseGoAndOthersStayHoweverThickTheSlicesAre) {

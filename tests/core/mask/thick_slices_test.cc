@@ -20,20 +20,15 @@ constexpr double kTrunk = 6, kTwig = 2.2;  // radii
 uint64_t EndsWithTwigs(double length) {
   Placement placement;
   placement.spacing = {1, 1, kSlice};
-  test::ReferenceMask mask{90, 31, 15, std::vector<uint8_t>(90 * 31 * 15)};
-  for (int32_t z = 0; z < mask.nz; ++z) {
-    for (int32_t y = 0; y < mask.ny; ++y) {
-      for (int32_t x = 0; x < mask.nx; ++x) {
-        const double up = kSlice * (z - 5), aside = y - 15, along = x - 10;
-        bool inside = std::hypot(along - std::clamp(along, 0.0, 70.0), aside, up) <= kTrunk;
-        for (const double at : {15.0, 35.0, 55.0}) {
-          const double above = up - std::clamp(up, 0.0, kTrunk + length);
-          inside = inside || std::hypot(along - at, aside, above) <= kTwig;
-        }
-        mask.voxels[mask.Index(x, y, z)] = inside ? 1 : 0;
-      }
+  const auto mask = test::MaskWhere(90, 31, 15, [length](int32_t x, int32_t y, int32_t z) {
+    const double up = kSlice * (z - 5), aside = y - 15, along = x - 10;
+    bool inside = std::hypot(along - std::clamp(along, 0.0, 70.0), aside, up) <= kTrunk;
+    for (const double at : {15.0, 35.0, 55.0}) {
+      const double above = up - std::clamp(up, 0.0, kTrunk + length);
+      inside = inside || std::hypot(along - at, aside, above) <= kTwig;
     }
-  }
+    return inside;
+  });
   const Volume object = Converted(mask, {}, placement).volume;
   const SkeletonizeOptions options = {
       .source = ObjectSource::kVoxels,
