@@ -3,11 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
-#include <vector>
 
 #include "core/distance/distance_field.h"
+#include "core/lattice/directions.h"
 #include "core/thinning/thinning.h"
 #include "core/volume/volume.h"
+#include "tests/support/volume_where.h"
 
 namespace {
 uint64_t blocks = 0;
@@ -22,14 +23,10 @@ namespace {
 Volume BallAndCurves(int32_t radius, int32_t curves) {
   constexpr int32_t kSide = 60, kLength = 12, kApart = 8;
   VolumeBuilder builder({2 * kSide, kSide, kSide});
-  for (int32_t z = -radius; z <= radius; ++z) {
-    for (int32_t y = -radius; y <= radius; ++y) {
-      for (int32_t x = -radius; x <= radius; ++x) {
-        const LatticePoint p = {kSide + x, kSide + y, kSide + z};
-        if (IsOnLattice(p) && x * x + y * y + z * z <= radius * radius) builder.Add(p);
-      }
-    }
-  }
+  const LatticePoint center = {kSide, kSide, kSide}, reach = {radius, radius, radius};
+  test::ForEachPointIn({center - reach, center + reach}, [&](LatticePoint p) {
+    if (Dot(p - center, p - center) <= radius * radius) builder.Add(p);
+  });
   for (int32_t n = 0; n < curves; ++n) {
     const int32_t y = kApart * (n % 12) + 2, z = kApart * (n / 12) + 2;
     for (int32_t x = 0; x < kLength; ++x) builder.Add({2 * kSide + 60 + 2 * x, y, z});

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/volume/volume.h"
+#include "tests/support/volume_where.h"
 
 namespace bccskel::test {
 
@@ -24,17 +25,8 @@ inline IsIn Net(int32_t step) {
 }
 
 inline Volume VolumeOfCells(const LatticeExtent& extent, const IsIn& is_in) {
-  VolumeBuilder builder(extent);
-  for (int32_t k = 0; k < extent.nz; ++k) {
-    for (int32_t j = 0; j < extent.ny; ++j) {
-      for (int32_t i = 0; i < extent.nx; ++i) {
-        for (const int s : {0, 1}) {
-          if (is_in(i, j, k, s)) builder.Add({2 * i + s, 2 * j + s, 2 * k + s});
-        }
-      }
-    }
-  }
-  return *std::move(builder).Build();
+  return VolumeWhere(
+      extent, [&](int32_t x, int32_t y, int32_t z) { return is_in(x / 2, y / 2, z / 2, x & 1); });
 }
 
 }  // namespace bccskel::test

@@ -4,6 +4,7 @@
 
 #include "core/lattice/directions.h"
 #include "tests/support/reference_point_set.h"
+#include "tests/support/volume_where.h"
 
 namespace bccskel::test {
 namespace {
@@ -33,13 +34,9 @@ struct Ball {
 template <typename Wanted>
 std::vector<LatticePoint> PointsOfBox(LatticeExtent extent, Wanted wanted) {
   std::vector<LatticePoint> points;
-  for (int32_t z = 0; z < 2 * extent.nz; ++z) {
-    for (int32_t y = z & 1; y < 2 * extent.ny; y += 2) {
-      for (int32_t x = z & 1; x < 2 * extent.nx; x += 2) {
-        if (wanted(LatticePoint{x, y, z})) points.push_back({x, y, z});
-      }
-    }
-  }
+  ForEachPointOf(extent, [&](int32_t x, int32_t y, int32_t z) {
+    if (wanted(LatticePoint{x, y, z})) points.push_back({x, y, z});
+  });
   return points;
 }
 

@@ -9,6 +9,7 @@
 #include "core/lattice/directions.h"
 #include "core/lattice/lattice_point.h"
 #include "core/volume/volume.h"
+#include "tests/support/volume_where.h"
 
 namespace bccskel::test {
 
@@ -42,13 +43,7 @@ class ReferencePointSet {
   // Calls visit(LatticePoint) for all lattice points of the box, object or not, in lattice order.
   template <typename Visit>
   void ForEachLatticePointOfBox(Visit visit) const {
-    for (int32_t z = low_.z; z <= high_.z; ++z) {
-      for (int32_t y = low_.y; y <= high_.y; ++y) {
-        for (int32_t x = low_.x; x <= high_.x; ++x) {
-          if (IsOnLattice({x, y, z})) visit(LatticePoint{x, y, z});
-        }
-      }
-    }
+    ForEachPointIn({low_, high_}, visit);
   }
 
  private:

@@ -13,6 +13,7 @@
 
 #include "client/export/point_forest.h"
 #include "tests/client/export/sample_skeletons.h"
+#include "tests/support/volume_where.h"
 
 namespace bccskel::exporting::swc {
 namespace {
@@ -92,20 +93,14 @@ Sample ObliqueRod(const std::array<double, 3>& spacing) {
   const WorldPoint way = {1 / root, 2 / root, 3 / root};
   const Placement placement = {.spacing = spacing};
   const auto reach = [&](size_t axis) { return static_cast<int32_t>(2 * 100 / spacing[axis]); };
-  VolumeBuilder builder({reach(0) / 2, reach(1) / 2, reach(2) / 2}, placement);
-  for (int32_t z = 0; z < reach(2); ++z) {
-    for (int32_t y = z & 1; y < reach(1); y += 2) {
-      for (int32_t x = z & 1; x < reach(0); x += 2) {
-        WorldPoint p = placement.ToWorld(LatticePoint{x, y, z});
-        for (double& coordinate : p) coordinate -= kRadius + 2;
-        const double along = p[0] * way[0] + p[1] * way[1] + p[2] * way[2];
-        const double square = p[0] * p[0] + p[1] * p[1] + p[2] * p[2] - along * along;
-        if (along < 0 || along > kLength || square > kRadius * kRadius) continue;
-        builder.Add({x, y, z});
-      }
-    }
-  }
-  Volume object = *std::move(builder).Build();
+  const auto is_in_rod = [&](int32_t x, int32_t y, int32_t z) {
+    WorldPoint p = placement.ToWorld(LatticePoint{x, y, z});
+    for (double& coordinate : p) coordinate -= kRadius + 2;
+    const double along = Dot(p, way);
+    return along >= 0 && along <= kLength && Dot(p, p) - along * along <= kRadius * kRadius;
+  };
+  Volume object =
+      test::VolumeWhere({reach(0) / 2, reach(1) / 2, reach(2) / 2}, is_in_rod, placement);
   SkeletonizeResult result = *Skeletonize(object, {}, {});
   return {std::move(object), std::move(result)};
 }

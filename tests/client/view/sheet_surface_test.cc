@@ -9,6 +9,7 @@
 #include "client/view/page.h"
 #include "client/view/result_balls.h"
 #include "tests/client/export/sample_skeletons.h"
+#include "tests/support/volume_where.h"
 
 namespace bccskel::view {
 namespace {
@@ -24,13 +25,13 @@ struct Thinned {
 };
 
 Thinned ThinnedBox(SkeletonKind kind, const Placement& placement = {}) {
-  VolumeBuilder builder({30, 20, 12}, placement);
-  for (int32_t z = 4; z < 20; ++z) {
-    for (int32_t y = 4 + z % 2; y < 36; y += 2) {
-      for (int32_t x = 4 + z % 2; x < 56; x += 2) builder.Add({x, (y & ~1) | (z & 1), z});
-    }
-  }
-  Volume object = std::move(builder).Build().value();
+  constexpr LatticeBox kBox = {{4, 4, 4}, {55, 35, 19}};
+  Volume object = test::VolumeWhere(
+      {30, 20, 12},
+      [&](int32_t x, int32_t y, int32_t z) {
+        return kBox.Contains(LatticePoint{x, y, z});
+      },
+      placement);
   SkeletonizeOptions options;
   options.thinning.kind = kind;
   SkeletonizeResult result = Skeletonize(object, options, {}).value();

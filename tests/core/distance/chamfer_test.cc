@@ -209,9 +209,7 @@ TEST_P(ChamferDistanceLaw, MeasuresUnequalSpacingsByTheirShortestPaths) {
   for (const auto& spacing :
        {std::array{1.0, 1.0, 5.0}, std::array{3.0, 1.1, 1.0}, std::array{0.2, 1.0, 0.3},
         std::array{90.0, 1.0, 1.0}, std::array{1.0, 1.0, 1e9}}) {
-    VolumeBuilder builder({40, 24, 22}, {.spacing = spacing});
-    for (LatticePoint p : points) builder.Add(p);
-    ExpectRelaxedDistances(*std::move(builder).Build());
+    ExpectRelaxedDistances(test::VolumeWith(points, {40, 24, 22}, {.spacing = spacing}));
   }
 }
 

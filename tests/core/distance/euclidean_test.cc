@@ -13,19 +13,13 @@
 #include "tests/support/contexts.h"
 #include "tests/support/random_objects.h"
 #include "tests/support/sanitized.h"
+#include "tests/support/volume_where.h"
 
 namespace bccskel {
 namespace {
 
 Volume Placed(const std::vector<LatticePoint>& points, const std::array<double, 3>& spacing) {
-  LatticeExtent extent = {1, 1, 1};
-  for (LatticePoint p : points) {
-    extent = {std::max(extent.nx, p.x / 2 + 1), std::max(extent.ny, p.y / 2 + 1),
-              std::max(extent.nz, p.z / 2 + 1)};
-  }
-  VolumeBuilder builder(extent, {.spacing = spacing});
-  for (LatticePoint p : points) builder.Add(p);
-  return *std::move(builder).Build();
+  return test::VolumeWith(points, VolumeOfPoints(points).extent(), {.spacing = spacing});
 }
 
 // All background points that have an object neighbor; the nearest one is always among them.
@@ -100,29 +94,17 @@ INSTANTIATE_TEST_SUITE_P(Seeds, EuclideanLaw, testing::Range<uint64_t>(0, 4, tes
 // Bricks whose neighbors are not stored are the borders of the scans.
 TEST(Euclidean, IsExactWhereBricksEnd) {
   for (int32_t shift = 0; shift < 36; shift += 5) {
-    VolumeBuilder builder({90, 60, 60});
-    for (int32_t z = 0; z < 20; ++z) {
-      for (int32_t y = 0; y < 12; ++y) {
-        for (int32_t x = 0; x < 40; ++x) builder.Add({x + shift, y + shift / 2, z + shift});
-      }
-    }
-    ExpectNearestBackground(*std::move(builder).Build(), exec::Context());
+    const LatticeBox box = {{shift, shift / 2, shift}, {shift + 39, shift / 2 + 11, shift + 19}};
+    const auto is_in_box = [&](int32_t x, int32_t y, int32_t z) {
+      return box.Contains(LatticePoint{x, y, z});
+    };
+    ExpectNearestBackground(test::VolumeWhere({90, 60, 60}, is_in_box), exec::Context());
   }
 }
 
 // Of full bricks: 256 cells wide and deep, as many high as said.
 Volume Slab(int32_t height) {
-  VolumeBuilder builder({256, height, 256});
-  for (Sublattice sublattice : kSublattices) {
-    for (int32_t bz = 0; bz < 256 / kBrickZ; ++bz) {
-      for (int32_t by = 0; by < height / kBrickY; ++by) {
-        for (int32_t bx = 0; bx < 256 / kBrickX; ++bx) {
-          builder.Brick(BrickKey({bx, by, bz, sublattice})).words.fill(~uint64_t{0});
-        }
-      }
-    }
-  }
-  return *std::move(builder).Build();
+  return test::FullBricks(256 / kBrickX, height / kBrickY, 256 / kBrickZ);
 }
 
 TEST(Euclidean, IsExactWhereSquaresOutgrow16Bits) {

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <string>
 #include <vector>
 
@@ -10,14 +9,13 @@
 #include "tests/support/contexts.h"
 #include "tests/support/random_objects.h"
 #include "tests/support/sanitized.h"
+#include "tests/support/volume_where.h"
 
 namespace bccskel::exact_radius {
 namespace {
 
 Volume Placed(const std::vector<LatticePoint>& points, const std::array<double, 3>& spacing) {
-  VolumeBuilder builder({80, 80, 80}, {.spacing = spacing});
-  for (LatticePoint p : points) builder.Add(p);
-  return *std::move(builder).Build();
+  return test::VolumeWith(points, {80, 80, 80}, {.spacing = spacing});
 }
 
 class ExactRadiusLaw : public testing::TestWithParam<uint64_t> {};

@@ -43,8 +43,7 @@ inline Volume EmptyVolume(LatticeExtent extent) {
 }
 
 inline Volume FullVolume(LatticeExtent extent) {
-  return test::VolumeWhere(
-      extent, [](auto...) { return true; }, SkewedPlacement());
+  return test::FullVolume(extent, SkewedPlacement());
 }
 
 inline Volume CornerVolume(LatticeExtent extent) {

@@ -5,13 +5,14 @@
 
 #include <cstdlib>
 #include <fstream>
-#include <iterator>
 #include <string>
 
 #include "core/io/volume_decoder.h"
 #include "core/io/volume_digest.h"
 #include "core/io/volume_encoder.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/support/volume_headers.h"
+#include "tests/support/volume_where.h"
 
 namespace bccskel::volume_golden {
 namespace {
@@ -23,18 +24,13 @@ const Placement kPlacement = {.spacing = {0.5, 0.25, 2},
 
 // An ellipsoid that touches the walls, and two opposite corners.
 Volume GoldenVolume() {
-  VolumeBuilder builder(kExtent, kPlacement);
-  for (int32_t z = 0; z < 2 * kExtent.nz; ++z) {
-    for (int32_t y = z & 1; y < 2 * kExtent.ny; y += 2) {
-      for (int32_t x = z & 1; x < 2 * kExtent.nx; x += 2) {
-        const int32_t dx = 2 * (x - 19), dy = 6 * (y - 6), dz = z - 37;
-        if (dx * dx + dy * dy + dz * dz <= 37 * 37) builder.Add({x, y, z});
-      }
-    }
-  }
-  builder.Add({0, 0, 0});
-  builder.Add({37, 11, 73});
-  return *std::move(builder).Build();
+  const auto is_in = [](int32_t x, int32_t y, int32_t z) {
+    const int32_t dx = 2 * (x - 19), dy = 6 * (y - 6), dz = z - 37;
+    const LatticePoint p = {x, y, z};
+    return dx * dx + dy * dy + dz * dz <= 37 * 37 || p == LatticePoint{0, 0, 0} ||
+           p == LatticePoint{37, 11, 73};
+  };
+  return test::VolumeWhere(kExtent, is_in, kPlacement);
 }
 
 struct Golden {
@@ -55,8 +51,7 @@ class VolumeGolden : public testing::TestWithParam<Golden> {
     if (std::getenv("BCCSKEL_BLESS") != nullptr) {
       std::ofstream(Path(), std::ios::binary) << Encoded();
     }
-    std::ifstream file(Path(), std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
+    return test::BytesOfFile(Path());
   }
 };
 

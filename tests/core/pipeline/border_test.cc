@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <numbers>
 #include <string>
@@ -201,17 +200,13 @@ TEST(BorderLaw, SaysWhichPointsGoWhereTheyAre) {
 }
 
 TEST(Border, OfAnObjectThatDoesNotTouchItIsNothing) {
-  const Volume blob = VolumeOfPoints(test::RandomBlob(3, {30, 30, 30}, 8, 10));
-  std::vector<LatticePoint> inner;
-  for (LatticePoint p : blob.SortedPoints()) inner.push_back(p + LatticePoint{40, 40, 40});
-  VolumeBuilder builder({80, 80, 80});
-  for (LatticePoint p : inner) builder.Add(p);
-  const Volume object = *std::move(builder).Build();
+  const auto blob = test::RandomBlob(3, {30, 30, 30}, 8, 10);
+  const Volume object = test::VolumeWith(test::Translated(blob, {40, 40, 40}), {80, 80, 80});
   EXPECT_EQ(SkeletonOf(object, Continued()).sha256, SkeletonOf(object, {}).sha256);
 }
 
 TEST(Border, OfAnObjectWithoutBackgroundLeavesOnePoint) {
-  const Volume full = VolumeWhere({20, 9, 11}, [](double, double, double) { return true; });
+  const Volume full = test::FullVolume({20, 9, 11});
   const SkeletonizeResult result = SkeletonOf(full, Continued());
   EXPECT_TRUE(result.certificate.TopologyKept());
   EXPECT_EQ(result.certificate.skeleton.components, 1);
@@ -241,7 +236,7 @@ absl::Status StatusWithin(uint64_t bytes, const Volume& object) {
 
 // As far out as it is long there are some 10^12 points on all sides.
 TEST(Border, OfALongObjectWithoutBackgroundTakesLittleMemory) {
-  const Volume row = VolumeWhere({4000, 2, 2}, [](double, double, double) { return true; });
+  const Volume row = test::FullVolume({4000, 2, 2});
   EXPECT_EQ(StatusWithin(256 << 20, row), absl::OkStatus());
   const Volume corners = VolumeWhere(
       {4001, 2, 2}, [](double x, double y, double z) { return x <= 8000 && y <= 2 && z <= 2; });

@@ -12,6 +12,7 @@
 #include "tests/support/random_objects.h"
 #include "tests/support/reference_betti.h"
 #include "tests/support/reference_conditions.h"
+#include "tests/support/volume_where.h"
 
 namespace bccskel::preparing {
 namespace {
@@ -27,12 +28,10 @@ BettiNumbers BettiOf(const Volume& object) {
 }
 
 Volume HollowBall() {
-  VolumeBuilder builder({24, 24, 24});
-  for (LatticePoint p : test::RandomCloud(0, {24, 24, 24}, 1)) {
-    const double r = std::hypot(p.x - 24, p.y - 24, p.z - 24);
-    if (r < 20 && r > 9) builder.Add(p);
-  }
-  return *std::move(builder).Build();
+  return test::VolumeWhere({24, 24, 24}, [](int32_t x, int32_t y, int32_t z) {
+    const double r = std::hypot(x - 24, y - 24, z - 24);
+    return r < 20 && r > 9;
+  });
 }
 
 const PreparingOptions kAll = {.denoise_passes = 1,
@@ -93,15 +92,10 @@ TEST(NotesOn, SayWhenNothingIsLeft) {
 
 TEST(NotesOn, NameTheKindForPlatesAndShells) {
   const auto plate = [](int32_t width) {
-    VolumeBuilder points({60, width, 10});
-    for (int32_t x = 4; x < 116; ++x) {
-      for (int32_t y = 4; y < 2 * width - 4; ++y) {
-        for (int32_t z = 4; z < 16; ++z) {
-          if ((x & 1) == (y & 1) && (y & 1) == (z & 1)) points.Add({x, y, z});
-        }
-      }
-    }
-    return *std::move(points).Build();
+    const LatticeBox box = {{4, 4, 4}, {115, 2 * width - 5, 15}};
+    return test::VolumeWhere({60, width, 10}, [&](int32_t x, int32_t y, int32_t z) {
+      return box.Contains(LatticePoint{x, y, z});
+    });
   };
   EXPECT_THAT(
       NotesOn(SkeletonOf(plate(60), {})),

@@ -13,6 +13,7 @@
 #include "core/exec/instruction_sets.h"
 #include "tests/support/contexts.h"
 #include "tests/support/random_objects.h"
+#include "tests/support/volume_where.h"
 
 namespace bccskel {
 namespace {
@@ -24,21 +25,10 @@ LatticeBox BoxOf(const LatticeExtent& extent, BorderPoints border) {
   return {{0, 0, 0}, {2 * extent.nx - last, 2 * extent.ny - last, 2 * extent.nz - last}};
 }
 
-template <typename Visit>
-void ForEachIn(const LatticeBox& box, Visit visit) {
-  for (int32_t z = box.low.z; z <= box.high.z; ++z) {
-    for (int32_t y = box.low.y; y <= box.high.y; ++y) {
-      for (int32_t x = box.low.x; x <= box.high.x; ++x) {
-        if (IsOnLattice({x, y, z})) visit(LatticePoint{x, y, z});
-      }
-    }
-  }
-}
-
 // All points of the image but a few, so most are far from background.
 Volume NearlyFull(uint64_t seed, LatticeExtent extent, BorderPoints border, Spacing spacing) {
   VolumeBuilder builder(extent, {.spacing = spacing});
-  ForEachIn(BoxOf(extent, border), [&](LatticePoint p) { builder.Add(p); });
+  test::ForEachPointIn(BoxOf(extent, border), [&](LatticePoint p) { builder.Add(p); });
   builder.Remove({0, 0, 0});
   for (LatticePoint p :
        test::RandomCloud(seed, extent, seed % 3 == 0 ? 0 : 0.001 * static_cast<double>(seed % 7))) {
@@ -73,7 +63,7 @@ std::vector<LatticePoint> BackgroundOf(const Volume& object, BorderPoints border
                                        const ImageFaces& faces = kAllFaces) {
   const LatticeBox box = BoxOf(object.extent(), border);
   std::vector<LatticePoint> background;
-  ForEachIn(WithOthersAround(box, faces), [&](LatticePoint p) {
+  test::ForEachPointIn(WithOthersAround(box, faces), [&](LatticePoint p) {
     if (!box.Contains(p) || !object.Contains(p)) background.push_back(p);
   });
   return background;
@@ -148,7 +138,7 @@ TEST(BeyondBorderLaw, RadiiAreThoseToBackgroundOfTheImage) {
     LatticeBox around = BoxOf(object.extent(), border);
     const LatticePoint out = faces == kAllFaces ? LatticePoint{9, 9, 9} : LatticePoint{0, 0, 0};
     around = {around.low - out, around.high + out};
-    ForEachIn(around, [&](LatticePoint p) {
+    test::ForEachPointIn(around, [&](LatticePoint p) {
       if ((p.x + 3 * p.y + 5 * p.z) % 7 != 0 || std::ranges::count(background, p) != 0) return;
       const float least = SquareToNearest(p, background, scale);
       ASSERT_NEAR(radius.SquaredAt(p) / least, 1, 1e-6) << seed;
@@ -171,7 +161,7 @@ TEST(BeyondBorderLaw, DistancesInALargeImageOfFewHolesAreFinite) {
   constexpr LatticePoint kHole = {31, 75, 151};
   for (const BorderPoints border : kBorders) {
     VolumeBuilder builder(kExtent);
-    ForEachIn(BoxOf(kExtent, border), [&](LatticePoint p) { builder.Add(p); });
+    test::ForEachPointIn(BoxOf(kExtent, border), [&](LatticePoint p) { builder.Add(p); });
     builder.Remove(kHole);
     const Volume object = *std::move(builder).Build();
     const Volume space = Continued(object, border);
@@ -200,7 +190,7 @@ Volume WithAllAround(const Volume& object, const LatticeBox& box, LatticePoint s
   end(0, &LatticePoint::x);
   end(1, &LatticePoint::y);
   end(2, &LatticePoint::z);
-  ForEachIn(all, [&](LatticePoint p) {
+  test::ForEachPointIn(all, [&](LatticePoint p) {
     if (!box.Contains(p - shift) || object.Contains(p - shift)) builder.Add(p);
   });
   return *std::move(builder).Build();

@@ -7,6 +7,7 @@
 #include "tests/core/prepare/reference_prepare.h"
 #include "tests/support/contexts.h"
 #include "tests/support/random_objects.h"
+#include "tests/support/volume_where.h"
 
 namespace bccskel {
 namespace {
@@ -86,13 +87,7 @@ TEST(Denoise, FillsAPointInABrickWithoutPoints) {
 }
 
 TEST(Denoise, AddsNoPointOutsideTheExtent) {
-  VolumeBuilder builder({17, 5, 9});
-  for (int32_t k = 0; k < 9; ++k) {
-    for (int32_t n = 0; n < 17 * 5; ++n) {
-      for (Sublattice s : kSublattices) builder.Add(PointAt(s, n % 17, n / 17, k));
-    }
-  }
-  const Volume box = *std::move(builder).Build();
+  const Volume box = test::FullVolume({17, 5, 9});
   const ChangedVolume changed = Denoised(box);
   EXPECT_EQ(changed.points_added, 0u);
   EXPECT_TRUE(Volume::Create(box.extent(), {},

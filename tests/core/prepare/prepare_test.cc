@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <set>
 
@@ -190,11 +189,8 @@ TEST(DropSmallComponentsLaw, KeepsTheComponentsOfAtLeastSoManyPoints) {
 
 // Two points take the volume of a cubic cell.
 TEST(DropSmallComponents, TakesVolumesInWorldUnits) {
-  VolumeBuilder builder({20, 4, 4}, {.spacing = {0.5, 1, 2}});
-  for (LatticePoint p : Points{{2, 2, 2}, {3, 3, 3}, {4, 4, 4}, {20, 2, 2}, {21, 3, 3}}) {
-    builder.Add(p);
-  }
-  const Volume object = *std::move(builder).Build();
+  const Points points = {{2, 2, 2}, {3, 3, 3}, {4, 4, 4}, {20, 2, 2}, {21, 3, 3}};
+  const Volume object = test::VolumeWith(points, {20, 4, 4}, {.spacing = {0.5, 1, 2}});
   const auto left = [&](double volume) {
     return Prepared(object, {.min_component_volume = volume}).object.PointCount();
   };

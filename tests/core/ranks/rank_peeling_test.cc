@@ -11,6 +11,7 @@
 #include "tests/core/ranks/thread_exchange.h"
 #include "tests/support/contexts.h"
 #include "tests/support/random_objects.h"
+#include "tests/support/volume_where.h"
 
 namespace bccskel::rank_peeling {
 namespace {
@@ -190,13 +191,7 @@ class MeasuredExchange : public ranks::Exchange {
 
 // All columns have one place along x, and so belong to one round.
 TEST(PeelOverRanks, SquaresOfARoundAreSentLittleByLittle) {
-  VolumeBuilder builder({kBrickX, 272, 272});
-  for (Sublattice sublattice : kSublattices) {
-    for (int32_t n = 0; n < 34 * 68; ++n) {
-      builder.Brick(BrickKey({0, n % 68, n / 68, sublattice})).words.fill(~uint64_t{0});
-    }
-  }
-  const Volume object = *std::move(builder).Build();
+  const Volume object = test::FullBricks(1, 272 / kBrickY, 272 / kBrickZ);
   ranks::RunAsThreads(2, [&](ranks::Exchange& exchange) {
     MeasuredExchange measured(exchange);
     Volume part = OnlyLayers(object, {exchange.rank(), exchange.size()});

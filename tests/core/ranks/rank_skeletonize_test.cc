@@ -120,17 +120,7 @@ TEST(RankSkeletonize, PreparingGivesTheResultOfOneMachine) {
 
 // Its distances need more than 16 bits.
 TEST(RankSkeletonize, ADeepObjectGivesTheResultOfOneMachine) {
-  VolumeBuilder builder({272, 272, 272});
-  for (Sublattice sublattice : kSublattices) {
-    for (int32_t bz = 0; bz < 272 / kBrickZ; ++bz) {
-      for (int32_t by = 0; by < 272 / kBrickY; ++by) {
-        for (int32_t bx = 0; bx < 272 / kBrickX; ++bx) {
-          builder.Brick(BrickKey({bx, by, bz, sublattice})).words.fill(~uint64_t{0});
-        }
-      }
-    }
-  }
-  const Volume object = *std::move(builder).Build();
+  const Volume object = test::FullBricks(272 / kBrickX, 272 / kBrickY, 272 / kBrickZ);
   for (const DistanceKind kind : {DistanceKind::kEuclidean, DistanceKind::kChamfer}) {
     const SkeletonizeOptions options = {
         .thinning = {.method = ThinningMethod::kSymmetric, .kind = SkeletonKind::kKernel},

@@ -9,6 +9,7 @@
 #include "tests/support/contexts.h"
 #include "tests/support/random_objects.h"
 #include "tests/support/reference_distance.h"
+#include "tests/support/volume_where.h"
 
 namespace bccskel {
 namespace {
@@ -50,15 +51,14 @@ TEST(FloatShellRule, IsAcceptedOnlyWhereItIsExact) {
   EXPECT_GE(accepted, 4);
 }
 
-void ExpectShells(const Volume& object, double width) {
-  const auto distance = ComputeDistance(object, DistanceKind::kChamfer, exec::Context());
-  ASSERT_TRUE(distance.ok());
-  const Shells shells = BuildShells(object, *distance, width, exec::Context());
+// `shell_at` gives the shell of the point at a bit of a brick.
+template <typename ShellAt>
+void ExpectShellsAt(const Volume& object, const Shells& shells, const ShellAt& shell_at) {
   int32_t last = 0;
   for (BrickIndex n = 0; n < object.brick_count(); ++n) {
     Shells::Range range = {INT32_MAX, 0};
     object.bricks()[n].ForEachSetBit([&](int bit) {
-      const int32_t shell = ShellOf(distance->At(n, bit), distance->weights(), width);
+      const int32_t shell = shell_at(n, bit);
       range.first = std::min(range.first, shell);
       range.last = std::max(range.last, shell);
       int32_t sliced = 0;
@@ -73,6 +73,15 @@ void ExpectShells(const Volume& object, double width) {
     last = std::max(last, range.last);
   }
   EXPECT_EQ(shells.last(), last);
+}
+
+void ExpectShells(const Volume& object, double width) {
+  const auto distance = ComputeDistance(object, DistanceKind::kChamfer, exec::Context());
+  ASSERT_TRUE(distance.ok());
+  const Shells shells = BuildShells(object, *distance, width, exec::Context());
+  ExpectShellsAt(object, shells, [&](BrickIndex n, int bit) {
+    return ShellOf(distance->At(n, bit), distance->weights(), width);
+  });
 }
 
 // What a shell is, in long arithmetic.
@@ -98,23 +107,10 @@ void ExpectEuclideanShells(const Volume& object, double wanted) {
   const EuclideanShellRule rule(width);
   const bool whole =
       std::holds_alternative<exec::UninitializedVector<uint16_t>>(distance->values());
-  for (BrickIndex n = 0; n < object.brick_count(); ++n) {
-    Shells::Range range = {INT32_MAX, 0};
-    object.bricks()[n].ForEachSetBit([&](int bit) {
-      const uint32_t rank = distance->At(n, bit);
-      const int32_t shell = rule(whole ? static_cast<float>(rank) : std::bit_cast<float>(rank));
-      range.first = std::min(range.first, shell);
-      range.last = std::max(range.last, shell);
-      int32_t sliced = 0;
-      for (size_t b = 0; b < kShellPlanes; ++b) {
-        sliced |= (shells.planes()[n][b].Test(bit) ? 1 : 0) << b;
-      }
-      ASSERT_EQ(sliced, shell & 63);
-    });
-    ASSERT_EQ(shells.RangeOf(n).first, range.first);
-    ASSERT_EQ(shells.RangeOf(n).last, range.last);
-    ASSERT_LT(range.last - range.first, 64) << "modulo 64 would not tell shells apart";
-  }
+  ExpectShellsAt(object, shells, [&](BrickIndex n, int bit) {
+    const uint32_t rank = distance->At(n, bit);
+    return rule(whole ? static_cast<float>(rank) : std::bit_cast<float>(rank));
+  });
 }
 
 void ExpectSameShells(const Volume& object, const Shells& some, const Shells& expected) {
@@ -161,16 +157,7 @@ TEST(StreamedShells, AreThoseOfAllDistancesAtOnce) {
 }
 
 TEST(StreamedShells, AreExactWhereDistancesNeedMoreThan16Bits) {
-  const LatticeExtent extent = {1400, 24, 24};
-  VolumeBuilder builder(extent, {.spacing = {1, 60, 60}});
-  for (Sublattice sublattice : kSublattices) {
-    for (int32_t k = 0; k < extent.nz; ++k) {
-      for (int32_t j = 0; j < extent.ny; ++j) {
-        for (int32_t i = 0; i < extent.nx; ++i) builder.Add(PointAt(sublattice, i, j, k));
-      }
-    }
-  }
-  const Volume box = *std::move(builder).Build();
+  const Volume box = test::FullVolume({1400, 24, 24}, {.spacing = {1, 60, 60}});
   const auto distance = ComputeDistance(box, DistanceKind::kChamfer, exec::Context());
   ASSERT_TRUE(std::holds_alternative<exec::UninitializedVector<uint32_t>>(distance->values()));
   const auto shells = StreamShells(box, DistanceKind::kChamfer, 1, exec::Context());
@@ -200,9 +187,7 @@ TEST(StreamedShells, AreThoseOfEuclideanDistancesHoweverColumnsAreCut) {
   constexpr size_t kColumnByColumn = 1;
   const std::vector<LatticePoint> points = test::RandomBlob(5, {70, 50, 50}, 3, 45);
   for (const auto& spacing : {std::array{1.0, 1.0, 1.0}, std::array{1.0, 1.0, 5.0}}) {
-    VolumeBuilder builder({70, 50, 50}, {.spacing = spacing});
-    for (LatticePoint p : points) builder.Add(p);
-    const Volume object = *std::move(builder).Build();
+    const Volume object = test::VolumeWith(points, {70, 50, 50}, {.spacing = spacing});
     for (const size_t at_once : {kMostSquaresAtOnce, size_t{40'000}, kColumnByColumn}) {
       ExpectStreamedEuclideanShells(object, at_once, 1);
       ExpectStreamedEuclideanShells(object, at_once, 3);
@@ -225,9 +210,7 @@ TEST(Shells, HoldEuclideanShellsForAnySpacingOnEveryInstructionSet) {
     ASSERT_TRUE(exec::ChooseInstructionSet(name));
     for (const auto& spacing :
          {std::array{1.0, 1.0, 1.0}, std::array{1.0, 1.0, 5.0}, std::array{30.0, 1.0, 1.0}}) {
-      VolumeBuilder builder({60, 50, 50}, {.spacing = spacing});
-      for (LatticePoint p : points) builder.Add(p);
-      ExpectEuclideanShells(*std::move(builder).Build(), 1);
+      ExpectEuclideanShells(test::VolumeWith(points, {60, 50, 50}, {.spacing = spacing}), 1);
     }
   }
   exec::ChooseInstructionSet("");

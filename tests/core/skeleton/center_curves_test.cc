@@ -8,6 +8,7 @@
 #include "core/pipeline/skeletonize.h"
 #include "core/skeleton/skeleton_figures.h"
 #include "tests/support/contexts.h"
+#include "tests/support/volume_where.h"
 
 namespace bccskel {
 namespace {
@@ -17,17 +18,12 @@ constexpr WorldPoint kAxis = {20.3, 19.6, 0};
 
 // A round bar along z, on a grid whose cells have two units along x and y and `height` along z.
 Volume Bar(double height) {
-  VolumeBuilder builder({20, 20, 30}, {.spacing = {2, 2, height}});
   const Placement placement = {.spacing = {2, 2, height}};
-  for (int32_t z = 2; z < 58; ++z) {
-    for (int32_t y = z % 2; y < 40; y += 2) {
-      for (int32_t x = z % 2; x < 40; x += 2) {
-        const WorldPoint p = placement.ToWorld({x, y, z});
-        if (std::hypot(p[0] - kAxis[0], p[1] - kAxis[1]) <= kRadius) builder.Add({x, y, z});
-      }
-    }
-  }
-  return *std::move(builder).Build();
+  const auto is_in_bar = [&](int32_t x, int32_t y, int32_t z) {
+    const WorldPoint p = placement.ToWorld({x, y, z});
+    return z >= 2 && z < 58 && std::hypot(p[0] - kAxis[0], p[1] - kAxis[1]) <= kRadius;
+  };
+  return test::VolumeWhere({20, 20, 30}, is_in_bar, placement);
 }
 
 // A straight edge along z beside the axis.

@@ -8,6 +8,7 @@
 #include "tests/core/skeleton/traced.h"
 #include "tests/support/contexts.h"
 #include "tests/support/random_objects.h"
+#include "tests/support/volume_where.h"
 
 namespace bccskel {
 
@@ -267,9 +268,7 @@ TEST(TraceSkeleton, OfASolidTorusIsALoopAlongItsMiddle) {
 
 TEST(TraceSkeleton, KeepsRadiiAndPlacement) {
   const Points line = Polyline({{4, 4, 4}, {4, 4, 40}});
-  VolumeBuilder builder({5, 5, 21}, {.spacing = {2, 3, 4}});
-  for (LatticePoint p : line) builder.Add(p);
-  const Volume thin = *std::move(builder).Build();
+  const Volume thin = test::VolumeWith(line, {5, 5, 21}, {.spacing = {2, 3, 4}});
   const SkeletonGraph graph =
       TraceSkeleton({thin, test::RadiiOf(thin, test::RuggedDepth)}, {}).value();
   EXPECT_EQ(graph.placement, thin.placement());

@@ -105,11 +105,7 @@ TEST(ReferenceAgreement, HoldsOnObjectsOfNoneOneAndTwoPoints) {
 
 class ThinningLaw : public testing::TestWithParam<uint64_t> {
  protected:
-  std::vector<LatticePoint> Points() const {
-    const uint64_t seed = GetParam();
-    if (seed % 2 == 0) return test::RandomCloud(seed, {9, 9, 9}, 0.1 * static_cast<double>(seed));
-    return test::WithNoisyBoundary(seed, test::RandomBlob(seed, {12, 12, 12}, 5, 9), 0.1);
-  }
+  std::vector<LatticePoint> Points() const { return test::CloudOrNoisyBlob(GetParam()); }
 };
 
 TEST_P(ThinningLaw, KeepsTheTopologyAndLeavesNoSimpleNonEndPoint) {
@@ -155,22 +151,16 @@ TEST_P(ThinningLaw, ChangesNothingTheSecondTimeWithoutCleanup) {
 
 // A shift by a lattice vector whose coordinates sum to a multiple of four keeps the subfields.
 TEST_P(ThinningLaw, MovesWithTheObject) {
-  const std::vector<LatticePoint> points = Points();
   const LatticePoint by = {14, 6, 24};
   ASSERT_TRUE(IsOnLattice(by) && (by.x + by.y + by.z) % 4 == 0);
-  const Volume thin = Thin(VolumeOfPoints(points), {}, 2).thin;
-  const Volume moved = Thin(VolumeOfPoints(test::Translated(points, by)), {}, 2).thin;
-  EXPECT_EQ(moved.SortedPoints(), test::Translated(thin.SortedPoints(), by));
+  test::ExpectMovesWithTheObject(Points(), by, {});
 }
 
 TEST_P(ThinningLaw, MovesByAnyLatticeVectorWithoutCleanup) {
-  const std::vector<LatticePoint> points = Points();
   ThinningOptions options;
   options.cleanup = ThinnessCleanup::kOff;
-  const Volume thin = Thin(VolumeOfPoints(points), options, 2).thin;
   for (LatticePoint by : {LatticePoint{2, 0, 0}, {1, 1, 1}, {17, 5, 11}, {0, 6, 14}}) {
-    const Volume moved = Thin(VolumeOfPoints(test::Translated(points, by)), options, 2).thin;
-    EXPECT_EQ(moved.SortedPoints(), test::Translated(thin.SortedPoints(), by));
+    test::ExpectMovesWithTheObject(Points(), by, options);
   }
 }
 

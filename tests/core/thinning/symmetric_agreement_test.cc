@@ -14,6 +14,7 @@
 #include "tests/support/reference_point_set.h"
 #include "tests/support/reference_thinner.h"
 #include "tests/support/sanitized.h"
+#include "tests/support/volume_where.h"
 
 // The engine gives the bits of the slow reference for the symmetric method and every kind, and the
 // laws of these skeletons hold.
@@ -21,7 +22,7 @@
 namespace bccskel::symmetric_agreement {
 namespace {
 
-using test::PlacedVolume, test::Thin;
+using test::PlacedVolume, test::Symmetric, test::Thin;
 
 constexpr SkeletonKind kKinds[] = {SkeletonKind::kCurve, SkeletonKind::kSurface,
                                    SkeletonKind::kKernel, SkeletonKind::kIsthmusCurve};
@@ -30,10 +31,6 @@ constexpr StubblePolicy kPolicies[] = {StubblePolicy::kKeepTwo, StubblePolicy::k
 constexpr double kWidths[] = {1, 0.75, 2};
 constexpr int32_t kLastShells[] = {0, 0, 1, 2, 3};
 constexpr int kTeams[] = {2, 3, 8};
-
-ThinningOptions Symmetric(SkeletonKind kind) {
-  return {.method = ThinningMethod::kSymmetric, .kind = kind};
-}
 
 ThinningOptions Combination(uint64_t n, std::span<const LatticePoint> points) {
   ThinningOptions options;
@@ -85,11 +82,7 @@ TEST(SymmetricAgreementLaw, HoldsOnNoisyBlobs) {
 
 class SymmetricThinningLaw : public testing::TestWithParam<uint64_t> {
  protected:
-  std::vector<LatticePoint> Points() const {
-    const uint64_t seed = GetParam();
-    if (seed % 2 == 0) return test::RandomCloud(seed, {9, 9, 9}, 0.1 * static_cast<double>(seed));
-    return test::WithNoisyBoundary(seed, test::RandomBlob(seed, {12, 12, 12}, 5, 9), 0.1);
-  }
+  std::vector<LatticePoint> Points() const { return test::CloudOrNoisyBlob(GetParam()); }
 };
 
 bool IsSimple(NeighborMask mask) { return test::ReferenceCondition1(mask); }
@@ -162,13 +155,9 @@ TEST_P(SymmetricThinningLaw, TheKernelIsNoLargerThanAnyOtherKind) {
 
 // Colors of points and the rotation of the passes move along.
 TEST_P(SymmetricThinningLaw, MovesWithTheObject) {
-  const std::vector<LatticePoint> points = Points();
   const LatticePoint by = {14, 6, 24};
   ASSERT_TRUE(IsOnLattice(by) && (by.x + by.y + by.z) % 4 == 0);
-  const ThinningOptions options = Symmetric(SkeletonKind::kCurve);
-  const Volume thin = Thin(VolumeOfPoints(points), options, 2).thin;
-  const Volume moved = Thin(VolumeOfPoints(test::Translated(points, by)), options, 2).thin;
-  EXPECT_EQ(moved.SortedPoints(), test::Translated(thin.SortedPoints(), by));
+  test::ExpectMovesWithTheObject(Points(), by, Symmetric(SkeletonKind::kCurve));
 }
 
 TEST_P(SymmetricThinningLaw, NeverRemovesKeptPoints) {
@@ -200,18 +189,6 @@ TEST(SymmetricThinning, GivesTheSameBitsOnEveryInstructionSetAndNumberOfThreads)
   }
 }
 
-Volume Bar(int nx, int ny, int nz) {
-  VolumeBuilder builder({nx, ny, nz});
-  for (Sublattice s : kSublattices) {
-    for (int k = 0; k < nz; ++k) {
-      for (int j = 0; j < ny; ++j) {
-        for (int i = 0; i < nx; ++i) builder.Add(PointAt(s, i, j, k));
-      }
-    }
-  }
-  return *std::move(builder).Build();
-}
-
 int EndsOf(const test::ReferencePointSet& thin) {
   int ends = 0;
   for (LatticePoint p : thin.SortedPoints()) {
@@ -222,7 +199,7 @@ int EndsOf(const test::ReferencePointSet& thin) {
 
 // Where a plain bar loses everything with other tools.
 TEST(SymmetricThinning, LeavesOneCurveAlongABar) {
-  const Volume thin = Thin(Bar(4, 4, 100), Symmetric(SkeletonKind::kCurve), 1).thin;
+  const Volume thin = Thin(test::FullVolume({4, 4, 100}), Symmetric(SkeletonKind::kCurve), 1).thin;
   const test::ReferencePointSet points(thin);
   EXPECT_EQ(test::ReferenceBetti(points), (BettiNumbers{1, 0, 0}));
   EXPECT_EQ(EndsOf(points), 2);
@@ -233,7 +210,7 @@ TEST(SymmetricThinning, LeavesOneCurveAlongABar) {
 TEST(SymmetricThinning, LosesNoCube) {
   for (SkeletonKind kind : kKinds) {
     for (int edge : {1, 2, 4, 7}) {
-      const Volume thin = Thin(Bar(edge, edge, edge), Symmetric(kind), 1).thin;
+      const Volume thin = Thin(test::FullVolume({edge, edge, edge}), Symmetric(kind), 1).thin;
       const test::ReferencePointSet points(thin);
       EXPECT_EQ(test::ReferenceBetti(points), (BettiNumbers{1, 0, 0})) << edge;
       if (kind == SkeletonKind::kKernel) {
@@ -245,7 +222,7 @@ TEST(SymmetricThinning, LosesNoCube) {
 
 // A plate: the surface skeleton keeps its extent, the curve skeleton does not keep its area.
 TEST(SymmetricThinning, TheSurfaceSkeletonOfAPlateIsASheet) {
-  const Volume plate = Bar(30, 24, 5);
+  const Volume plate = test::FullVolume({30, 24, 5});
   const uint64_t surface = Thin(plate, Symmetric(SkeletonKind::kSurface), 1).thin.PointCount();
   const uint64_t curve = Thin(plate, Symmetric(SkeletonKind::kCurve), 1).thin.PointCount();
   EXPECT_GT(surface, 400u);

@@ -18,6 +18,7 @@
 namespace bccskel::symmetric_shapes {
 namespace {
 
+using test::Symmetric;
 using test::Thin;
 
 struct Case {
@@ -40,10 +41,6 @@ Volume Generate(Shape shape, uint64_t points, double noise) {
   auto volume = GenerateShape(shape, {.points = points, .seed = 1, .noise = noise});
   EXPECT_TRUE(volume.ok()) << volume.status();
   return *std::move(volume);
-}
-
-ThinningOptions Symmetric(SkeletonKind kind) {
-  return {.method = ThinningMethod::kSymmetric, .kind = kind};
 }
 
 class SymmetricShapes : public testing::TestWithParam<Case> {};

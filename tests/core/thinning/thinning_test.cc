@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <initializer_list>
 #include <vector>
 
 #include "core/exec/instruction_sets.h"
@@ -41,15 +42,14 @@ TEST(Thinning, GivesTheSameBitsOnEveryInstructionSetAndNumberOfThreads) {
   exec::ChooseInstructionSet("");
 }
 
-// So tall that workers have bricks far from others', which they look at while others wait for the
-// bricks near them.
-TEST(Thinning, GivesTheSameBitsForAnyNumberOfThreadsOfATallObject) {
-  const Volume object = VolumeOfPoints(test::RandomBlob(13, {60, 60, 280}, 8, 90));
+// Gives the bits of one worker with teams of these sizes; the first alone where sanitizers are
+// slow.
+void ExpectTheBitsOfOneWorker(const Volume& object, std::initializer_list<int> teams) {
   const auto distance = ComputeDistance(object, DistanceKind::kEuclidean, {});
   for (const ThinningMethod method : {ThinningMethod::kDirectional, ThinningMethod::kSymmetric}) {
     const auto alone = ThinObject(object, *distance, {.method = method}, {});
-    for (int threads : {4, 2, 3, 7, 16}) {
-      if (test::kSanitized && threads != 4) continue;
+    for (int threads : teams) {
+      if (test::kSanitized && threads != *teams.begin()) continue;
       test::TeamContext context(threads);
       context.patience = 1e9;
       const auto shared = ThinObject(object, *distance, {.method = method}, context);
@@ -58,6 +58,13 @@ TEST(Thinning, GivesTheSameBitsForAnyNumberOfThreadsOfATallObject) {
       EXPECT_EQ(shared->passes, alone->passes) << threads << " threads";
     }
   }
+}
+
+// So tall that workers have bricks far from others', which they look at while others wait for the
+// bricks near them.
+TEST(Thinning, GivesTheSameBitsForAnyNumberOfThreadsOfATallObject) {
+  ExpectTheBitsOfOneWorker(VolumeOfPoints(test::RandomBlob(13, {60, 60, 280}, 8, 90)),
+                           {4, 2, 3, 7, 16});
 }
 
 // A thick end and a thin stalk, whose bricks have no deep shells, so that ranges of bricks move.
@@ -72,19 +79,7 @@ Volume Lollipop() {
 }
 
 TEST(Thinning, GivesTheSameBitsWhenWorkersShareBricksAnew) {
-  const Volume object = Lollipop();
-  const auto distance = ComputeDistance(object, DistanceKind::kEuclidean, {});
-  for (const ThinningMethod method : {ThinningMethod::kDirectional, ThinningMethod::kSymmetric}) {
-    const auto alone = ThinObject(object, *distance, {.method = method}, {});
-    for (int threads : {5, 2, 9}) {
-      if (test::kSanitized && threads != 5) continue;
-      test::TeamContext context(threads);
-      context.patience = 1e9;
-      const auto shared = ThinObject(object, *distance, {.method = method}, context);
-      EXPECT_TRUE(shared->thin == alone->thin) << threads << " threads";
-      EXPECT_EQ(shared->passes, alone->passes) << threads << " threads";
-    }
-  }
+  ExpectTheBitsOfOneWorker(Lollipop(), {5, 2, 9});
 }
 
 TEST(Thinning, GivesTheSameBitsWhenATeamShrinksToOneWorker) {
@@ -160,16 +155,13 @@ TEST(Thinning, ReportsEveryShellOnce) {
 Volume BlockWithHoleBeyondABrick() {
   constexpr LatticePoint kCorner = {96, 32, 48};
   constexpr LatticePoint kHole = kCorner + LatticePoint{31, 7, 17};
-  VolumeBuilder builder({90, 40, 50}, {.spacing = {1, 3, 2}});
-  for (int32_t z = 10; z <= 86; ++z) {
-    for (int32_t y = 6; y <= 58; ++y) {
-      for (int32_t x = 22; x <= 170; ++x) {
-        const LatticePoint p = {x, y, z};
-        if (IsOnLattice(p) && p != kHole) builder.Add(p);
-      }
-    }
-  }
-  return *std::move(builder).Build();
+  constexpr LatticeBox kBlock = {{22, 6, 10}, {170, 58, 86}};
+  return test::VolumeWhere(
+      {90, 40, 50},
+      [&](int32_t x, int32_t y, int32_t z) {
+        return kBlock.Contains(LatticePoint{x, y, z}) && LatticePoint{x, y, z} != kHole;
+      },
+      {.spacing = {1, 3, 2}});
 }
 
 TEST(Thinning, OpensEachPointWithItsShellWhereABrickHasNearlyAllThatPlanesTellApart) {
@@ -256,15 +248,7 @@ TEST(ThinningState, FindsTheNeighborsOfEveryPoint) {
 
 // Where a plain bar loses everything with other tools.
 TEST(Thinning, LeavesACurveInAPlainBar) {
-  VolumeBuilder builder({4, 4, 100});
-  for (Sublattice s : kSublattices) {
-    for (int k = 0; k < 100; ++k) {
-      for (int j = 0; j < 4; ++j) {
-        for (int i = 0; i < 4; ++i) builder.Add(PointAt(s, i, j, k));
-      }
-    }
-  }
-  const Volume thin = Thin(*std::move(builder).Build(), {}).thin;
+  const Volume thin = Thin(test::FullVolume({4, 4, 100}), {}).thin;
   EXPECT_GT(thin.PointCount(), 80u);
   EXPECT_LT(thin.PointCount(), 250u);
 }

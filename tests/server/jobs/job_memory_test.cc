@@ -15,6 +15,7 @@
 #include "server/errors/call_error.h"
 #include "server/jobs/job_pool.h"
 #include "tests/support/volume_headers.h"
+#include "tests/support/volume_where.h"
 
 namespace bccskel::server {
 namespace {
@@ -67,13 +68,9 @@ void WaitFor(const JobPool& pool, uint64_t bytes) {
 
 // Isolated points, 256 in each brick: few bytes and few bricks, and nothing can be thinned.
 Volume Dust(int32_t cells) {
-  VolumeBuilder builder({cells, cells, cells});
-  for (int32_t k = 0; k < cells; ++k) {
-    for (int32_t j = 0; j < cells; ++j) {
-      for (int32_t i = (j + k) % 2; i < cells; i += 2) builder.Add({2 * i, 2 * j, 2 * k});
-    }
-  }
-  return *std::move(builder).Build();
+  return test::VolumeWhere({cells, cells, cells}, [](int32_t x, int32_t y, int32_t z) {
+    return x % 2 == 0 && (x + y + z) % 4 == 0;
+  });
 }
 
 Encoded Encode(const Volume& volume, const VolumeEncoding& encoding,

@@ -66,12 +66,9 @@ TEST(UnionOfBallsLaw, TheBallsOfASkeletonHoldItAndLieInsideTheObject) {
   for (uint64_t seed = 0; seed < 24; ++seed) {
     SCOPED_TRACE(seed);
     const auto blob = test::RandomBlob(seed, {16, 14, 12}, 6, 9);
-    VolumeBuilder builder(LatticeExtent{30, 30, 30},
-                          {.spacing = kSpacings[seed % 4], .origin = {-7, 2, 1e3}});
-    for (const LatticePoint p : test::WithNoisyBoundary(seed, blob, 0.1)) {
-      if (p.x < 60 && p.y < 60 && p.z < 60) builder.Add(p);
-    }
-    const Volume object = std::move(builder).Build().value();
+    const Volume object =
+        test::VolumeWith(test::WithNoisyBoundary(seed, blob, 0.1), {30, 30, 30},
+                         {.spacing = kSpacings[seed % 4], .origin = {-7, 2, 1e3}});
     SkeletonizeOptions options;
     options.thinning.kind = kKinds[seed % 3];
     const auto result = Skeletonize(object, options, {});

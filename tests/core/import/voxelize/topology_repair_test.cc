@@ -8,6 +8,7 @@
 
 #include "tests/core/import/mesh/mesh_shapes.h"
 #include "tests/core/import/voxelize/voxelized.h"
+#include "tests/support/volume_where.h"
 
 namespace bccskel {
 namespace {
@@ -72,13 +73,7 @@ struct SpineAndHandle {
   std::vector<LatticePoint> spine;
 
   explicit SpineAndHandle(bool handle) {
-    for (int32_t z = 10; z < 20; ++z) {
-      for (int32_t y = 10; y < 20; ++y) {
-        for (int32_t x = 10; x < 20; ++x) {
-          if (IsOnLattice({x, y, z})) builder.Add({x, y, z});
-        }
-      }
-    }
+    test::ForEachPointIn({{10, 10, 10}, {19, 19, 19}}, [&](LatticePoint p) { builder.Add(p); });
     for (int32_t x = 20; x < 34; x += 2) spine.push_back({x, 14, 14});
     for (const LatticePoint p : spine) builder.Add(p);
     if (!handle) return;
