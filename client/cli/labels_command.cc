@@ -96,7 +96,7 @@ bool KeptToThinning(const Certificate& certificate) {
 
 // Changes of labels may cancel out in the sums.
 std::string CheckPhrase(const Totals& totals, size_t labels) {
-  const std::string of_all = VerdictInWords(totals.certificate);
+  std::string of_all = VerdictInWords(totals.certificate);
   if (totals.changed == 0) return of_all;
   const std::string in_some =
       absl::StrFormat(", in %d of %s", totals.changed, Counted(labels, "label", "labels"));

@@ -65,7 +65,7 @@ void AddRow(Text& text, const SkeletonGraph& graph, size_t n, uint32_t component
 
 // A cell that holds any text.
 std::string Quoted(std::string_view text) {
-  const std::string line = OnOneLine(text);
+  std::string line = OnOneLine(text);
   if (line.find_first_of(",\"") == std::string::npos) return line;
   return "\"" + absl::StrReplaceAll(line, {{"\"", "\"\""}}) + "\"";
 }

@@ -113,6 +113,14 @@ void CollapsePaths(ThinSet& set, Significance& significance, double threshold, c
   }
 }
 
+void SetLevels(const PruningLevels& levels, double least, ThinSkeleton& skeleton) {
+  skeleton.levels.reserve(skeleton.radii.size());
+  skeleton.points.ForEachPoint([&](LatticePoint p) {
+    const double* level = levels.Find(p);
+    skeleton.levels.push_back(level != nullptr ? std::max(*level, least) : kNoLevel);
+  });
+}
+
 Significance SignificanceIn(const Volume& space, const ExactRadius& radius, const PrunedObject& in,
                             const SurfaceNoise& noise) {
   std::optional<FirmDepth> firm_depth;
@@ -201,11 +209,7 @@ absl::StatusOr<ThinSkeleton> Prune(const ThinSkeleton& curves, const PrunedObjec
   if (absl::Status stop = context.StopStatus(); !stop.ok()) return stop;
   ThinSkeleton pruned = set.ToSkeleton(curves);
   pruned.at_border = *std::move(at_border);
-  pruned.levels.reserve(pruned.radii.size());
-  pruned.points.ForEachPoint([&](LatticePoint p) {
-    const double* level = levels.Find(p);
-    pruned.levels.push_back(level != nullptr ? std::max(*level, least_level) : kNoLevel);
-  });
+  SetLevels(levels, least_level, pruned);
   return pruned;
 }
 

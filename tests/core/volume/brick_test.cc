@@ -36,7 +36,9 @@ TEST(BrickAddress, NamesEveryPointOfThreeBricksPerAxisOnce) {
 // Boxes that hold the brick, miss it, end within it at even and odd places, or are empty.
 TEST(BrickAddress, PointsInABoxAreThoseItContains) {
   std::mt19937 random(7);
-  const auto near = [&](int32_t last) { return static_cast<int32_t>(random() % (last + 9u)) - 4; };
+  const auto near = [&](int32_t last) {
+    return static_cast<int32_t>(random() % static_cast<uint32_t>(last + 9)) - 4;
+  };
   for (int n = 0; n < 2000; ++n) {
     const BrickCoordinates brick = {1, 2, 1, kSublattices[random() % 2]};
     const LatticePoint first = BoxOf(brick).low, last = BoxOf(brick).high;
