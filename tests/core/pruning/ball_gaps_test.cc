@@ -11,6 +11,8 @@
 namespace bccskel {
 namespace {
 
+using test::VolumeWhere;
+
 // The curve of an object: points with radii, each alone.
 ThinSet CurveOf(const Volume& object, const std::vector<BallGaps::Ball>& balls) {
   VolumeBuilder builder(object.extent(), object.placement());
@@ -30,16 +32,18 @@ std::vector<BallGaps::Peak> PeaksOf(const Volume& object, const std::vector<Ball
   return BallGaps(object, CurveOf(object, balls), edge, poll).Peaks(1, 0.1, poll);
 }
 
+double GapAt(LatticePoint p, const std::vector<BallGaps::Ball>& balls) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const BallGaps::Ball& ball : balls) {
+    least = std::min(least, StraightDistance(p, ball.center, kIsotropic) - ball.radius);
+  }
+  return least;
+}
+
 // The largest gap of all points of the object.
 double LargestGap(const Volume& object, const std::vector<BallGaps::Ball>& balls) {
   double most = 0;
-  object.ForEachPoint([&](LatticePoint p) {
-    double least = std::numeric_limits<double>::infinity();
-    for (const BallGaps::Ball& ball : balls) {
-      least = std::min(least, StraightDistance(p, ball.center, kIsotropic) - ball.radius);
-    }
-    most = std::max(most, least);
-  });
+  object.ForEachPoint([&](LatticePoint p) { most = std::max(most, GapAt(p, balls)); });
   return most;
 }
 
@@ -72,8 +76,11 @@ TEST(BallGaps, TakeTheNearestOfManyBalls) {
     SCOPED_TRACE(edge);
     double most = 0;
     for (const BallGaps::Peak& peak : PeaksOf(box, balls, edge)) {
-      most = std::max(most, peak.gap);
       EXPECT_TRUE(box.Contains(peak.tip));
+      // The nearest ball of a cube need not be that of all its points.
+      EXPECT_GE(peak.gap, GapAt(peak.tip, balls));
+      EXPECT_LT(peak.gap, GapAt(peak.tip, balls) + edge / 2);
+      most = std::max(most, GapAt(peak.tip, balls));
     }
     EXPECT_EQ(most, LargestGap(box, balls));
   }
