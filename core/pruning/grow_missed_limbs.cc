@@ -23,20 +23,26 @@ namespace {
 
 // Of a limb's tip outside the ball, in its radii and in steps of the surface.
 constexpr double kLeastGap = 0.4, kLeastGapSteps = 4;
-// Of the bodies that have such limbs: the least radius in the largest of their component's, and the
-// largest half-width in radii. In flat parts, thinning leaves curves out where there are no limbs.
+// Of the bodies that have such limbs: the least radius in the largest of their component's. Of
+// both: the largest half-width in radii. In flat parts, thinning leaves curves out where there are
+// no limbs.
 constexpr double kThick = 0.35, kRound = 1.5;
 // Of the way from the tip to the curve: how far around it may lead, in lengths of the straight way,
 // and the weight of coming nearer against the rise of the depth.
 constexpr double kWayAround = 1.3, kToward = 0.2;
 constexpr double kWayAroundUnits = 4;
-constexpr double kStartsAround =
-    0.4;  // as for the ends of bodies: from the center, in the ball's radii
-constexpr size_t kStartsTried = 16;  // tried for a limb
-constexpr double kInset = 0.15;      // of its length: the tip may lie on the rim
-constexpr double kNearEnd = 2;       // the distance of ends in the same part, in its lengths
-constexpr size_t kLeastPoints = 4;   // of a limb
-constexpr int32_t kLeastEdge = 8;    // of cubes
+// Where on the curve a limb may begin, as for the ends of bodies: around the end of that way, in
+// radii of the ball there, and how many points are tried.
+constexpr double kStartsAround = 0.4;
+constexpr size_t kStartsTried = 16;
+constexpr double kInset = 0.15;  // of its length: the tip may lie on the rim
+constexpr double kNearEnd = 2;   // the distance of ends in the same part, in its lengths
+// Of places where a limb may be round: the least depth, in radii of its root, and from one to the
+// next, in points.
+constexpr double kLeastDepthOfRoot = 0.25;
+constexpr size_t kNextPlace = 3;
+constexpr size_t kLeastPoints = 4;  // of a limb
+constexpr int32_t kLeastEdge = 8;   // of cubes
 
 // The largest radius of each component of the set, at each of its points.
 PointTable<float> LargestRadii(const ThinSet& set, StopPoll& poll) {
@@ -80,7 +86,9 @@ class MissedLimbs {
     const auto& [tip, ball, gap] = peak;
     const double least = std::max(kLeastGapSteps * step_, kLeastGap * ball.radius);
     if (gap < least || IsNearGrown(tip, least)) return;
-    if (!set_.Contains(ball.center) || !IsRoundAt(ball.center) || !Sees(tip, ball.center)) return;
+    if (!set_.Contains(ball.center) || !IsRoundAt(ball.center) ||
+        !Sees(PlaceOf(tip, set_.scale()), PlaceOf(ball.center, set_.scale())))
+      return;
     const std::vector<LatticePoint> way = WayFrom(tip, ball.center);
     if (way.empty() || !GrowAgainst(way)) return;
     for (size_t n = 1; n < path_.size(); ++n) set_.SetRadius(path_[n], radius_.At(path_[n]));
@@ -103,25 +111,24 @@ class MissedLimbs {
     const JunctionBall ball(set_, center);
     if (ball.exits().empty()) return false;
     const Coordinates on = Unit(set_.Way(ball.visited()[ball.body()].p, center));
-    const double radius = ball.radius(), most = kRound * radius + step_;
-    return sections_.Across(PlaceOf(center, set_.scale()), on, radius, 2 * radius).half_width <=
-           most;
+    return IsRound(center, on, ball.radius());
   }
 
   // Whether another end lies in the same flat part: nothing is between the two.
   bool SeesAnotherEnd() {
-    const LatticePoint from =
-        path_[path_.size() - 1 - static_cast<size_t>(kInset * static_cast<double>(path_.size()))];
-    const double far = kNearEnd * set_.Between(path_.front(), path_.back());
+    const LatticePoint root = path_.front(), tip = path_.back();
+    const double far = kNearEnd * set_.Between(root, tip);
+    const Coordinates inner = Sum(PlaceOf(tip, set_.scale()), kInset, set_.Way(tip, root));
     return std::ranges::any_of(ends_, [&](LatticePoint end) {
-      return set_.Between(end, from) < far && set_.Contains(end) && Sees(end, from);
+      return set_.Between(end, tip) < far && set_.Contains(end) &&
+             Sees(PlaceOf(end, set_.scale()), inner);
     });
   }
 
-  bool Sees(LatticePoint from, LatticePoint to) {
-    const Coordinates way = set_.Way(from, to);
-    const double length = std::floor(LengthOf(way)) - 1;
-    return sections_.WayOut(PlaceOf(from, set_.scale()), Unit(way), 0, length) >= length;
+  bool Sees(const Coordinates& from, const Coordinates& to) {
+    const Coordinates way = Sum(to, -1, from);
+    const double length = std::floor(LengthOf(way));
+    return length == 0 || sections_.WayOut(from, Unit(way), 0, length) >= length;
   }
 
   // The points from the tip up the ridge of the depths to one beside the set; none if the ridge
@@ -184,7 +191,26 @@ class MissedLimbs {
     if (path_.size() <= kLeastPoints) return false;
     const FreeBranch branch = BranchFrom(set_, path_.back());
     if (!branch.junction.has_value()) return false;
-    return significance_.Of(set_, branch) >= threshold_;
+    return significance_.Of(set_, branch) >= threshold_ && IsRoundOutside();
+  }
+
+  // Whether the limb is round somewhere outside the ball at its root, unlike the corner of a face.
+  bool IsRoundOutside() {
+    const LatticePoint root = path_.front();
+    const double radius = set_.RadiusOf(root), reach = JunctionBall::kExit * radius;
+    const Coordinates way = Unit(set_.Way(root, path_.back()));
+    for (size_t n = 0; n < path_.size(); n += kNextPlace) {
+      const double depth = set_.RadiusOf(path_[n]);
+      if (set_.Between(root, path_[n]) < reach || depth < kLeastDepthOfRoot * radius) continue;
+      if (IsRound(path_[n], way, depth)) return true;
+    }
+    return false;
+  }
+
+  bool IsRound(LatticePoint p, const Coordinates& way, double radius) {
+    const CrossSection section =
+        sections_.Across(PlaceOf(p, set_.scale()), way, radius, 2 * radius);
+    return section.half_width <= kRound * radius + step_;
   }
 
   ThinSet& set_;
