@@ -77,15 +77,17 @@ class MissedLimbs {
         radius_(in.radius),
         depth_(depth),
         sections_(in.object),
-        step_(noise.step),
+        noise_(noise),
         significance_(significance),
         threshold_(threshold),
         ends_(set.Ends()) {}
 
   void GrowTo(const BallGaps::Peak& peak) {
     const auto& [tip, ball, gap] = peak;
-    const double least = std::max(kLeastGapSteps * step_, kLeastGap * ball.radius);
+    const double stretch = noise_.Stretch(set_.Way(ball.center, tip));
+    const double least = std::max(kLeastGapSteps * stretch * noise_.step, kLeastGap * ball.radius);
     if (gap < least || IsNearGrown(tip, least)) return;
+    if (!significance_.MayHaveBodyEnds(ball.radius / stretch)) return;
     if (!set_.Contains(ball.center) || !IsRoundAt(ball.center) ||
         !Sees(PlaceOf(tip, set_.scale()), PlaceOf(ball.center, set_.scale())))
       return;
@@ -210,7 +212,7 @@ class MissedLimbs {
   bool IsRound(LatticePoint p, const Coordinates& way, double radius) {
     const CrossSection section =
         sections_.Across(PlaceOf(p, set_.scale()), way, radius, 2 * radius);
-    return section.half_width <= kRound * radius + step_;
+    return section.half_width <= kRound * radius + noise_.step;
   }
 
   ThinSet& set_;
@@ -218,7 +220,7 @@ class MissedLimbs {
   ExactRadius radius_;
   FirmDepth& depth_;
   CrossSections sections_;
-  const double step_;
+  const SurfaceNoise noise_;
   Significance& significance_;
   const double threshold_;
   std::vector<LatticePoint> path_;   // from the set
