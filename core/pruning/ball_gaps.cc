@@ -112,7 +112,7 @@ std::vector<BallGaps::Peak> BallGaps::Peaks(double least_radius, double least_ga
   NearbyBricks bricks(object_);
   for (uint32_t n = 0; n < cubes_.size(); ++n) {
     if (poll.Stopped()) break;
-    const double radius = cubes_[n].ball.radius, most = cubes_[n].gap + (1 << (bits_ - 1));
+    const double radius = cubes_[n].ball.radius, most = cubes_[n].gap + 0.5 * (1 << bits_);
     if (radius < least_radius || most < least_gap * radius || !IsPeak(n)) continue;
     balls.clear();
     AnyAround(n, [&](uint32_t other) {
