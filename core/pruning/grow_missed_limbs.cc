@@ -37,9 +37,9 @@ constexpr double kStartsAround = 0.4;
 constexpr size_t kStartsTried = 16;
 constexpr double kInset = 0.15;  // of its length: the tip may lie on the rim
 constexpr double kNearEnd = 2;   // the distance of ends in the same part, in its lengths
-// Of places where a limb may be round: the least depth, in radii of its root, and from one to the
-// next, in points.
-constexpr double kLeastDepthOfRoot = 0.25;
+// Of places where a limb may be round: the largest half-width in radii, less than that of corners,
+// the least depth, in radii of its root, and from one to the next, in points.
+constexpr double kRoundLimb = 1.3, kLeastDepthOfRoot = 0.25;
 constexpr size_t kNextPlace = 3;
 constexpr size_t kLeastPoints = 4;  // of a limb
 constexpr int32_t kLeastEdge = 8;   // of cubes
@@ -113,7 +113,7 @@ class MissedLimbs {
     const JunctionBall ball(set_, center);
     if (ball.exits().empty()) return false;
     const Coordinates on = Unit(set_.Way(ball.visited()[ball.body()].p, center));
-    return IsRound(center, on, ball.radius());
+    return IsRound(center, on, ball.radius(), kRound);
   }
 
   // Whether another end lies in the same flat part: nothing is between the two.
@@ -172,6 +172,7 @@ class MissedLimbs {
     std::optional<LatticePoint> first;
     ForEachNeighbor(way.back(), beside, [&](LatticePoint q) { first = first.value_or(q); });
     const JunctionBall ball(set_, *first);
+    if (!significance_.MayHaveBodyEnds(ball.radius())) return false;
     std::vector<std::pair<double, LatticePoint>> starts;
     for (const JunctionBall::Visited& visited : ball.visited()) {
       if (set_.Between(*first, visited.p) > kStartsAround * ball.radius()) continue;
@@ -204,15 +205,15 @@ class MissedLimbs {
     for (size_t n = 0; n < path_.size(); n += kNextPlace) {
       const double depth = set_.RadiusOf(path_[n]);
       if (set_.Between(root, path_[n]) < reach || depth < kLeastDepthOfRoot * radius) continue;
-      if (IsRound(path_[n], way, depth)) return true;
+      if (IsRound(path_[n], way, depth, kRoundLimb)) return true;
     }
     return false;
   }
 
-  bool IsRound(LatticePoint p, const Coordinates& way, double radius) {
+  bool IsRound(LatticePoint p, const Coordinates& way, double radius, double most) {
     const CrossSection section =
         sections_.Across(PlaceOf(p, set_.scale()), way, radius, 2 * radius);
-    return section.half_width <= kRound * radius + noise_.step;
+    return section.half_width <= most * radius + noise_.step;
   }
 
   ThinSet& set_;

@@ -13,12 +13,15 @@ namespace {
 constexpr double kGainBySteps = 0.42;  // a tip farther out must be better by so many surface steps
 constexpr double kGainByNoise = 0.06;  // plus this share of the noise allowance; less may be noise
 constexpr double kAimRadii = 1.75;     // like kCutRadii, for the point that shows the direction
-constexpr double kBumpLength = 6;      // longest bumps in lattice units; longer ones are thin limbs
-constexpr double kBumpRadii = 2;       // the same in radii of the limb
-constexpr double kGrowthRadii = 2;     // longest growth, in radii of the limb's root
-constexpr double kGrowthMargin = 6;    // plus lattice units
-constexpr double kLongStep = 2;        // from this step on by one radius only: caps are too coarse
-constexpr double kOffArc = 0.25;  // largest distance of points from a limb's arc, in its height
+// A tip in the ball of the junction: the least radius, in that of the junction, and how far the end
+// may reach beyond the middle of its ball, in its depth.
+constexpr double kOfBody = 0.85, kHolds = 1.2;
+constexpr double kBumpLength = 6;    // longest bumps in lattice units; longer ones are thin limbs
+constexpr double kBumpRadii = 2;     // the same in radii of the limb
+constexpr double kGrowthRadii = 2;   // longest growth, in radii of the limb's root
+constexpr double kGrowthMargin = 6;  // plus lattice units
+constexpr double kLongStep = 2;      // from this step on by one radius only: caps are too coarse
+constexpr double kOffArc = 0.25;     // largest distance of points from a limb's arc, in its height
 constexpr double kOffArcAtRoot = kOffArc / 2;  // the same where the arc begins at the root
 constexpr double kLimbAfterFlat = 0.95;        // least significance; corners of strips reach 0.9
 constexpr double kPointed = 0.7;  // largest radius at the end of a pointed limb, in its root's
@@ -234,7 +237,7 @@ void TipPlacer::CutBumps() {
 
 size_t TipPlacer::FirstCut(double radii) {
   size_t first = path_.size() - 1;
-  for (size_t n = first; n > 0 && path_[n] != root_ && !IsInJunction(path_[n - 1]); --n) {
+  for (size_t n = first; n > 0 && path_[n] != root_; --n) {
     if (IsInCapOf(path_[n - 1], radii)) first = n - 1;
   }
   return last_limb_.BeginIn(set_, path_, first);
@@ -246,6 +249,10 @@ bool TipPlacer::IsInJunction(LatticePoint p) const {
 
 bool TipPlacer::IsInCapOf(LatticePoint p, double radii) {
   const double way = set_.Between(path_.back(), p);
+  if (IsInJunction(p)) {
+    return set_.RadiusOf(p) >= kOfBody * set_.RadiusOf(*junction_) &&
+           way + set_.RadiusOf(path_.back()) < kHolds * depth_.At(p);
+  }
   return way <= radii * set_.RadiusOf(p) + kCutMargin || way <= radii * depth_.At(p) + kCutMargin;
 }
 

@@ -85,7 +85,9 @@ class TipPlacer {
   size_t FirstCut(double radii);
   // Whether p lies in the ball of the junction.
   bool IsInJunction(LatticePoint p) const;
-  // The depth is at least the radius, so testing the radius is usually enough.
+  // Whether the end lies in the cap around p. The depth is at least the radius, so testing the
+  // radius is usually enough. In the ball of the junction, the distances rise toward the body and
+  // not along the limb, unless the limb is an end of the body, whose cap p's ball holds.
   bool IsInCapOf(LatticePoint p, double radii);
   // Position in the path, at least `n`, of a point from which the way ahead is known.
   size_t FirstThatShowsWay(size_t n) const;

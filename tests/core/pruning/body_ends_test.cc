@@ -8,6 +8,7 @@
 #include "core/pipeline/skeletonize.h"
 #include "core/pruning/prune.h"
 #include "tests/core/pruning/sampled.h"
+#include "tests/core/pruning/simple_noise.h"
 
 namespace bccskel {
 namespace {
@@ -116,6 +117,34 @@ TEST(BodyEnds, FacesAndCapsJustBeyondLimbsHaveNone) {
       const auto result = Skeletonize(test::Sampled(solid, kCells, turn), {}, {});
       ASSERT_TRUE(result.ok()) << result.status();
       EXPECT_EQ(FreeEndsOf(result->graph), 3) << round << ' ' << turn;
+    }
+  }
+}
+
+// The ball of the junction nearest to the end holds the middle of the cap, where the tip lies.
+TEST(BodyEnds, TipsLieInTheCapsThatTheLastLimbsAreNear) {
+  constexpr int32_t kCells = 80;
+  constexpr double kBody = 24, kLimb = 4;
+  for (const double near : {0.8, 0.9}) {
+    for (const double turn : {0.3, 0.8, 2.1}) {
+      for (const uint64_t seed : {1u, 2u, 3u}) {
+        const auto solid = [&](const WorldPoint& p) {
+          double out = ToLimb(p, {-40, 0, 0}, kBody, {40, 0, 0}, kBody);
+          for (const double side : {-1.0, 1.0}) {
+            const WorldPoint from = {side * (40 - near * kBody), 0, 0};
+            out = std::min(out, ToLimb(p, from, kLimb, {from[0], 0, 56}, kLimb));
+          }
+          return out <= 0;
+        };
+        const Volume object = test::WithSimpleNoise(test::Sampled(solid, kCells, turn), 0.1, seed);
+        const auto result = Skeletonize(object, {}, {});
+        ASSERT_TRUE(result.ok()) << result.status();
+        SCOPED_TRACE(testing::Message() << near << ' ' << turn << ' ' << seed);
+        EXPECT_EQ(FreeEndsOf(result->graph), 4);
+        for (const double end : {-40.0, 40.0}) {
+          EXPECT_LT(GapAt({end, 0, 0}, result->graph, kCells, turn), 5) << end;
+        }
+      }
     }
   }
 }

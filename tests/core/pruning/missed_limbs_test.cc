@@ -7,6 +7,7 @@
 
 #include "core/pipeline/skeletonize.h"
 #include "tests/core/pruning/sampled.h"
+#include "tests/core/pruning/simple_noise.h"
 
 namespace bccskel {
 namespace {
@@ -72,6 +73,23 @@ TEST(MissedLimbs, TipsOfSnoutsDoNotGoBackIntoTheHead) {
   for (const Head& head : heads) {
     SCOPED_TRACE(head.head);
     ExpectFourEnds(head);
+  }
+}
+
+// Noise makes the corners of a bar, across which it is triangular, seem round.
+TEST(MissedLimbs, CornersOfBarsAreNone) {
+  const auto bar = [](const WorldPoint& p) {
+    return std::abs(p[0]) <= 100 && std::abs(p[1]) <= 18 && std::abs(p[2]) <= 18;
+  };
+  const ThinningOptions thinning = {.method = ThinningMethod::kDirectionalAlternating};
+  for (const double turn : {0.3, 1.1}) {
+    for (const uint64_t seed : {1u, 2u, 3u}) {
+      const Volume object = test::WithSimpleNoise(test::Sampled(bar, kCells, turn), 0.05, seed);
+      const auto result = Skeletonize(object, {.thinning = thinning}, {});
+      ASSERT_TRUE(result.ok()) << result.status();
+      EXPECT_EQ(std::ranges::count(result->graph.nodes, NodeKind::kEnd, &SkeletonNode::kind), 2)
+          << turn << ' ' << seed;
+    }
   }
 }
 

@@ -289,7 +289,7 @@ TEST_P(EveryType, IsReadInBothByteOrders) {
 TEST(OpenImage, SaysWhichSizeOfRawVoxelsDoesNotFit) {
   ImageOptions options;
   options.raw = {.size = {3, 5, 2}};
-  for (const size_t voxels : {29, 31}) {
+  for (const size_t voxels : {29u, 31u}) {
     const auto image = ReadBytes(Counting<uint8_t>(voxels), options);
     EXPECT_EQ(image.status().code(), absl::StatusCode::kInvalidArgument);
     EXPECT_THAT(std::string(image.status().message()),
