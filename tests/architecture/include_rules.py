@@ -14,10 +14,12 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]')
 NAMESPACE = re.compile(r"^namespace ([\w:]*) ?{$")
 CLASS = re.compile(r"^(?:class|struct) (?:alignas\(\w+\) )?(\w+)[^;]*$")
 # With the standard library of GCC 12, clang 14 compiles neither std::ranges::subrange, which these
-# algorithms return, nor views.
+# algorithms return, nor views. It also warns of signs where an unsigned variable goes through a
+# list of ints, such as {1, 2}; {1u, 2u} is right.
 NOT_FOR_CLANG = re.compile(
     r"\b(?:std::views::\w+|std::ranges::(?:views::\w+|(?:unique|remove|remove_if|rotate|partition"
-    r"|stable_partition|search|search_n|find_end|find_last|equal_range)\b))")
+    r"|stable_partition|search|search_n|find_end|find_last|equal_range)\b)"
+    r"|(?:size_t|uint\d+_t) \w+ : \{-?\d+[,}])")
 SUFFIXES = {".h", ".cc"}
 TOP_FOLDERS = ("core", "proto", "server", "client")
 MAX_LINES = 400
@@ -102,6 +104,10 @@ def check_file(rules, path, text):
         reason = violation(rules, owner, header)
         if reason:
             yield f"{path}:{number}: includes {header}: {reason}"
+
+
+def refused_by_clang(path, text):
+    """Yields `path:line: reason` for what only the fuzzers and the nightly checks would find."""
     for number, line in enumerate(text.splitlines(), 1):
         if match := NOT_FOR_CLANG.search(line.split("//")[0]):
             yield f"{path}:{number}: {match.group()} does not compile with clang 14"
@@ -130,8 +136,8 @@ def defined_twice(files):
                 yield f"{path}:{number}: {first[name]} defines {name}, too"
 
 
-def sources(root):
-    for top in TOP_FOLDERS:
+def sources(root, folders):
+    for top in folders:
         for path in sorted((root / top).rglob("*")):
             if path.suffix in SUFFIXES:
                 yield path.relative_to(root).as_posix(), path.read_text(encoding="utf-8")
@@ -140,9 +146,11 @@ def sources(root):
 def main(root, arrows):
     rules = Rules(pathlib.Path(arrows).read_text(encoding="utf-8"))
     found = list(rules.defects())
-    files = list(sources(pathlib.Path(root)))
+    files = list(sources(pathlib.Path(root), TOP_FOLDERS))
     for path, text in files:
         found += check_file(rules, path, text)
+    for path, text in files + list(sources(pathlib.Path(root), ("tests",))):
+        found += refused_by_clang(path, text)
     found += defined_twice(files)
     if not files:
         found.append(f"{root}: no C++ file found")

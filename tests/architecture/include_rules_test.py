@@ -2,7 +2,7 @@
 
 import unittest
 
-from include_rules import Rules, check_file, defined_twice
+from include_rules import Rules, check_file, defined_twice, refused_by_clang
 
 ARROWS = """
 core/lattice:
@@ -49,13 +49,16 @@ class IncludeRules(unittest.TestCase):
 
     def test_finds_what_the_fuzzers_compiler_refuses(self):
         def check(line):
-            return list(check_file(Rules(ARROWS), "core/io/a.cc", line + "\n"))
+            return list(refused_by_clang("core/io/a.cc", line + "\n"))
 
         self.assertEqual(check("  std::ranges::rotate(a, a.begin() + 1);"),
                          ["core/io/a.cc:1: std::ranges::rotate does not compile with clang 14"])
         self.assertEqual(len(check("for (int n : std::views::iota(0, 3)) {}")), 1)
         self.assertEqual(check("std::ranges::sort(a);  // not std::ranges::unique"), [])
         self.assertEqual(check("std::ranges::remove_copy(a, b, 0);"), [])
+        self.assertEqual(check("for (const size_t n : {29, 31}) {"),
+                         ["core/io/a.cc:1: size_t n : {29, does not compile with clang 14"])
+        self.assertEqual(check("for (const size_t n : {29u, 31u}) {"), [])
 
     def test_finds_arrows_that_run_in_a_circle(self):
         self.assertEqual(len(list(Rules("a: b\nb: a\n").defects())), 2)
