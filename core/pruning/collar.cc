@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/distance/places.h"
+#include "core/pruning/tube_wall.h"
 
 namespace bccskel {
 namespace {
@@ -57,6 +58,10 @@ bool LeadsIntoCollar(const ThinSet& set, const FreeBranch& branch, CrossSections
     if (!is_collar(RayIn(plane, n))) ++gaps;
   }
   return gaps <= kMostGaps;
+}
+
+bool IsArbitrary(const ThinSet& set, const FreeBranch& branch, CrossSections& sections) {
+  return LeadsIntoCollar(set, branch, sections) || LiesInTubeWall(set, branch, sections);
 }
 
 }  // namespace bccskel

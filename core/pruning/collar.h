@@ -13,6 +13,10 @@ namespace bccskel {
 // Needs: the branch has a junction.
 bool LeadsIntoCollar(const ThinSet& set, const FreeBranch& branch, CrossSections& sections);
 
+// Whether where a branch lies is arbitrary: it leads into a collar, or along the wall of a tube.
+// Needs: the branch has a junction.
+bool IsArbitrary(const ThinSet& set, const FreeBranch& branch, CrossSections& sections);
+
 }  // namespace bccskel
 
 #endif  // BCCSKEL_CORE_PRUNING_COLLAR_H_

@@ -187,4 +187,15 @@ double CrossSections::WayOut(const Coordinates& from, const Coordinates& way, do
   return out;
 }
 
+double CrossSections::WayToObject(const Coordinates& from, const Coordinates& way, double reach) {
+  double out = 0;
+  while (out < reach) {
+    const PointsAlong ahead = FindPointsAlong(from, way, out, 1, scale_);
+    for (size_t n = 0; n < PointsAlong::kCount && out < reach; ++n, ++out) {
+      if (bricks_.Contains(ahead[n])) return out;
+    }
+  }
+  return reach;
+}
+
 }  // namespace bccskel

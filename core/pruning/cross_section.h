@@ -90,6 +90,8 @@ class CrossSections {
   // How far the object extends, up to `reach`, in whole lattice units. Skips single missing points,
   // which are noise. Needs: it extends to `start`, a whole number.
   double WayOut(const Coordinates& from, const Coordinates& way, double start, double reach);
+  // How far the background extends, up to `reach`, in whole lattice units.
+  double WayToObject(const Coordinates& from, const Coordinates& way, double reach);
   // How far a wall extends from a refined section in the direction of the branch, up to `reach`;
   // the line follows the wall.
   double OnwardInWall(const CrossSection& section, double reach) {

@@ -84,8 +84,8 @@ double Significance::Of(const ThinSet& set, const FreeBranch& branch) {
       LeadsIntoCornerOfStrip(set, branch, sections_)) {
     return kLeastCorner;
   }
-  auto& known = last->into_collar;
-  if (value >= kLeastCorner && !known.has_value()) known = LeadsIntoCollar(set, branch, sections_);
+  auto& known = last->is_arbitrary;
+  if (value >= kLeastCorner && !known.has_value()) known = IsArbitrary(set, branch, sections_);
   if (value >= kLeastCorner && *known) return kLeastRatio;
   if (value >= kSureRatio || !MayHaveBodyEnds(set.RadiusOf(*branch.junction))) return value;
   return std::max(value, OfBodyEnd(set, branch, BodyAt::kJunction, value));

@@ -102,9 +102,9 @@ class Significance {
     LatticePoint junction;
     size_t points = 0;
     Run run;
-    double value = 0;                                // without the factor `uncovered`
-    double beside_trunk = 0;                         // the same if the other branches are round
-    std::optional<bool> into_collar = std::nullopt;  // LeadsIntoCollar(), once asked
+    double value = 0;                                 // without the factor `uncovered`
+    double beside_trunk = 0;                          // the same if the other branches are round
+    std::optional<bool> is_arbitrary = std::nullopt;  // IsArbitrary(), once asked
   };
 
   using Sections = std::array<CrossSection, kPlaces>;
