@@ -3,6 +3,7 @@
 import json
 import re
 import unittest.mock
+import warnings
 
 import bccskel
 import harness
@@ -106,6 +107,33 @@ class FilesTest(harness.TestCase):
         self.assertEqual(json.loads((self.folder / "mine.json").read_text())["world"], "LPS")
         with self.assertRaisesRegex(ValueError, "swc_step -1: must be 0 or more"):
             skeleton.save(self.path("mine.swc"), swc_step=-1)
+
+    def test_a_unit_can_be_stated_of_arrays_images_and_meshes(self):
+        mask = crossing_bars()
+        image = bccskel.Image(mask, (1, 1, 1), (0, 0, 0), numpy.eye(3), "mm")
+        labels = bccskel.skeletonize_labels(mask.astype("u1"), unit="micron")
+        for skeleton, unit in ((bccskel.skeletonize(mask, unit="um"), "um"),
+                               (bccskel.skeletonize(image), "mm"),
+                               (bccskel.skeletonize(image, unit="nm"), "nm"), (labels[1], "um"),
+                               (bccskel.skeletonize_mesh(*box_mesh(), points=2000, unit="cm"), "cm")):
+            self.assertEqual(skeleton.unit, unit)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            labels[1].save(self.path("stated.precomputed"))
+        bccskel.skeletonize(mask, unit="um").save(self.path("stated.json"))
+        self.assertEqual(bccskel.read(self.path("stated.json")).unit, "um")
+        with self.assertRaisesRegex(ValueError, "^unit parsec: must be a unit of length, such as nm"):
+            bccskel.skeletonize(mask, unit="parsec")
+        with self.assertRaisesRegex(TypeError, "^unit must be a text such as 'um', got int"):
+            bccskel.skeletonize_labels(mask, unit=3)
+
+    def test_a_path_is_not_cut_at_a_nul(self):
+        skeleton = bccskel.skeletonize(crossing_bars())
+        for act in (skeleton.save, bccskel.read,
+                    lambda path: bccskel.save_labels(path, {1: skeleton})):
+            with self.assertRaisesRegex(ValueError, "a path must not contain NUL"):
+                act(self.path("cut\0.json"))
+        self.assertFalse((self.folder / "cut").exists())
 
     def test_images_are_those_of_the_command_line(self):
         for options in ({}, {"voxel_points": 16}):

@@ -14,7 +14,7 @@ import numpy as np
 
 from . import _native
 from ._image import (Frame, Image, Lattice, Mesh, check_labels, check_vertices, labels_for_sending,
-                     triangles_of, voxels_of)
+                     path_text, triangles_of, voxels_of)
 from ._options import texts_of
 from ._skeleton import Skeleton
 
@@ -55,6 +55,14 @@ def _frame(image: Any, axes: str, spacing: Any, origin: Any, direction: Any) -> 
                  image.direction if direction is None else direction)
 
 
+def _unit(unit: Optional[str]) -> str:
+    if unit is None:
+        return ""
+    if not isinstance(unit, str):
+        raise TypeError(f"unit must be a text such as 'um', got {type(unit).__name__}")
+    return _native.checked_unit(unit)
+
+
 def _warn(skeleton: Skeleton) -> Skeleton:
     for warning in skeleton.warnings + skeleton.notes:
         warnings.warn(warning, stacklevel=4)
@@ -62,7 +70,7 @@ def _warn(skeleton: Skeleton) -> Skeleton:
 
 
 def _lattice(server: Any, lattice: Lattice, placed: bool, threads: int, timeout: Optional[float],
-             progress: Any, options: Mapping[str, Any]) -> Skeleton:
+             progress: Any, unit: str, options: Mapping[str, Any]) -> Skeleton:
     if placed:
         raise TypeError("a Lattice has a placement and accepts no spacing, origin, direction or axes")
     for name in ("points", "spacing", "fill", "thin_parts", "lattice_axes"):
@@ -72,22 +80,23 @@ def _lattice(server: Any, lattice: Lattice, placed: bool, threads: int, timeout:
     texts = texts_of("skeletonize", "mesh", options, frame.to_xyz)
     outcome = _native.skeletonize_lattice(lattice._volume, texts,
                                           _call(server, threads, timeout, progress))
-    return _warn(Skeleton(outcome, frame, title=lattice.name))
+    return _warn(Skeleton(outcome, frame, title=lattice.name, unit=unit))
 
 
 def _mask(server: Any, mask: Any, spacing: Any, origin: Any, direction: Any, axes: str,
-          threads: int, timeout: Optional[float], progress: Any,
+          threads: int, timeout: Optional[float], progress: Any, unit: Optional[str],
           options: Mapping[str, Any]) -> Skeleton:
+    named = _unit(unit)
     if isinstance(mask, Lattice):
         placed = axes != "zyx" or any(it is not None for it in (spacing, origin, direction))
-        return _lattice(server, mask, placed, threads, timeout, progress, options)
+        return _lattice(server, mask, placed, threads, timeout, progress, named, options)
     array = voxels_of(mask, "mask")
     frame = _frame(mask, axes, spacing, origin, direction)
     texts = texts_of("skeletonize", "mask", options, frame.to_xyz)
     outcome = _native.skeletonize_mask(frame.zyx(array), frame.placement(), texts,
                                        _call(server, threads, timeout, progress))
     return _warn(Skeleton(outcome, frame, title=getattr(mask, "name", None) or "mask",
-                          voxels=True, image=mask))
+                          voxels=True, image=mask, unit=named))
 
 
 def _warn_of_no_labels(image: np.ndarray, all_wanted: bool) -> None:
@@ -112,8 +121,9 @@ def _labels_in(wanted: Any) -> List[int]:
 
 
 def _labels(server: Any, image: Any, spacing: Any, origin: Any, direction: Any, axes: str,
-            threads: int, timeout: Optional[float], progress: Any,
+            threads: int, timeout: Optional[float], progress: Any, unit: Optional[str],
             options: Mapping[str, Any]) -> dict:
+    named = _unit(unit)
     array = voxels_of(image, "image")
     frame = _frame(image, axes, spacing, origin, direction)
     texts = texts_of("skeletonize_labels", "labels", options, frame.to_xyz)
@@ -137,7 +147,7 @@ def _labels(server: Any, image: Any, spacing: Any, origin: Any, direction: Any, 
     elif not outcomes and (array > 0).any():
         warnings.warn(f"no label has {options.get('min_voxels', 1)} voxels or more", stacklevel=3)
     skeletons = {label: Skeleton(outcome, frame, title=f"label {label}", voxels=True, label=label,
-                                 image=image)
+                                 image=image, unit=named)
                  for label, outcome in outcomes.items()}
     _warn_of_notes(skeletons)
     return skeletons
@@ -156,8 +166,8 @@ def _warn_of_notes(skeletons: Mapping[int, Skeleton]) -> None:
 
 
 def _mesh(server: Any, vertices: Any, faces: Any, threads: int, timeout: Optional[float],
-          progress: Any, options: Mapping[str, Any]) -> Skeleton:
-    title = "mesh"
+          progress: Any, unit: Optional[str], options: Mapping[str, Any]) -> Skeleton:
+    title, named = "mesh", _unit(unit)
     check_vertices(vertices)
     if isinstance(vertices, Mesh):
         if faces is not None:
@@ -169,7 +179,7 @@ def _mesh(server: Any, vertices: Any, faces: Any, threads: int, timeout: Optiona
     texts = texts_of("skeletonize_mesh", "mesh", options, frame.to_xyz)
     outcome = _native.skeletonize_mesh(*triangles_of(vertices, faces), texts,
                                        _call(server, threads, timeout, progress))
-    return _warn(Skeleton(outcome, frame, title=title))
+    return _warn(Skeleton(outcome, frame, title=title, unit=named))
 
 
 class _Functions:
@@ -184,6 +194,7 @@ class _Functions:
                     spacing: Optional[ArrayLike] = None, origin: Optional[ArrayLike] = None,
                     direction: Optional[ArrayLike] = None, axes: str = "zyx", threads: int = 0,
                     timeout: Optional[float] = None, progress: _Progress = None,
+                    unit: Optional[str] = None,
                     **options: Unpack[MaskOptions]) -> Skeleton:
         """The skeleton of a mask.
 
@@ -198,6 +209,7 @@ class _Functions:
         threads: 0 means all of the machine. The result is the same for any number.
         timeout: seconds.
         progress: called with (shells done, all shells).
+        unit: of lengths, such as 'um', for files and pages; by default that of an `Image`.
         options: those of `bccskel skeletonize` with underscores: method, kind, pruning,
             pruning_threshold, merge_junctions, adjacency, ... See its manual.
 
@@ -215,14 +227,14 @@ class _Functions:
         """
         with self._hints():
             return _mask(self._server, mask, spacing, origin, direction, axes, threads, timeout,
-                         progress, options)
+                         progress, unit, options)
 
     def skeletonize_labels(self, image: Union[ArrayLike, Image],
                            spacing: Optional[ArrayLike] = None,
                            origin: Optional[ArrayLike] = None,
                            direction: Optional[ArrayLike] = None, axes: str = "zyx",
                            threads: int = 0, timeout: Optional[float] = None,
-                           progress: _Progress = None,
+                           progress: _Progress = None, unit: Optional[str] = None,
                            **options: Unpack[LabelsOptions]) -> dict[int, Skeleton]:
         """The skeletons of the labels of an image, by label; 0 and NaN are background.
 
@@ -239,11 +251,12 @@ class _Functions:
         """
         with self._hints():
             return _labels(self._server, image, spacing, origin, direction, axes, threads, timeout,
-                           progress, options)
+                           progress, unit, options)
 
     def skeletonize_mesh(self, vertices: Union[ArrayLike, Mesh],
                          faces: Optional[ArrayLike] = None, threads: int = 0,
                          timeout: Optional[float] = None, progress: _Progress = None,
+                         unit: Optional[str] = None,
                          **options: Unpack[MeshOptions]) -> Skeleton:
         """The skeleton of the solid inside a triangle mesh.
 
@@ -266,7 +279,7 @@ class _Functions:
         True
         """
         with self._hints():
-            return _mesh(self._server, vertices, faces, threads, timeout, progress, options)
+            return _mesh(self._server, vertices, faces, threads, timeout, progress, unit, options)
 
 
 _here = _Functions()
@@ -301,7 +314,7 @@ def read(path: _Path, **options: Unpack[FileOptions]) -> Union[Image, Mesh, Latt
     ((2, 3, 4), (2.0, 1.0, 1.0))
     """
     try:
-        return _read(os.fspath(path), options)
+        return _read(path_text(path), options)
     except NotImplementedError as error:
         raise ValueError(str(error)) from None
 

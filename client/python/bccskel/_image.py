@@ -161,6 +161,14 @@ class Frame:
         return array.transpose([self.axes.index(axis) for axis in "zyx"])
 
 
+def path_text(path: Any) -> Any:
+    """A path as the extension module takes it. A NUL would cut it short there."""
+    text = os.fspath(path)
+    if ("\0" if isinstance(text, str) else b"\0") in text:
+        raise ValueError(f"{text!r}: a path must not contain NUL")
+    return text
+
+
 def _three(name: str, value: Any) -> np.ndarray:
     """Three finite numbers from three or one."""
     try:

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, Optional, Union
 import numpy as np
 
 from . import _native
-from ._image import Frame
+from ._image import Frame, path_text
 
 if TYPE_CHECKING:
     import networkx
@@ -47,7 +47,7 @@ class Skeleton:
         self._outcome = outcome
         self._frame = frame
         self._of_voxels = voxels
-        self.unit = getattr(image, "unit", unit)
+        self.unit = unit or getattr(image, "unit", "")
         """The unit of coordinates, radii and lengths: "mm", "um", ...; empty if unknown."""
         self.world = getattr(image, "world", world)
         """Where the axes point: "RAS", "LPS", ...; empty if unknown."""
@@ -336,7 +336,7 @@ class Skeleton:
         if swc_step is not None and (isinstance(swc_step, bool)
                                      or not isinstance(swc_step, numbers.Real)):
             raise TypeError(f"swc_step must be a number or None, got {swc_step!r}")
-        note = self._outcome.save(os.fspath(path), self.title, self.world, self.unit, swc_step)
+        note = self._outcome.save(path_text(path), self.title, self.world, self.unit, swc_step)
         if note:
             warnings.warn(f"{os.fspath(path)}: {note}", stacklevel=2)
 
@@ -427,7 +427,7 @@ def save_labels(path: Union[str, os.PathLike], skeletons: Mapping[int, Skeleton]
             raise TypeError(f"label {label} must have a Skeleton, got {type(skeleton).__name__}")
     ordered = sorted(skeletons.items())
     world, unit = (ordered[0][1].world, ordered[0][1].unit) if ordered else ("", "")
-    note = _native.save_labels(os.fspath(path),
+    note = _native.save_labels(path_text(path),
                                [(int(label), skeleton._outcome) for label, skeleton in ordered],
                                world, unit)
     if note:

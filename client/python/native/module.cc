@@ -25,6 +25,7 @@
 #include "core/import/image/open_image.h"
 #include "core/import/mesh/mesh_file.h"
 #include "core/io/volume_file.h"
+#include "core/lattice/length_unit.h"
 #include "core/version/version.h"
 
 // The functions that the package's Python files call: coordinates in the order x, y, z, arrays in
@@ -232,6 +233,12 @@ py::tuple ReadMesh(const std::string& path) {
   return py::make_tuple(vertices, triangles);
 }
 
+// Errors: ValueError for what is no unit of length.
+std::string CheckedUnit(const std::string& name) {
+  if (NanometersOf(name).has_value()) return UnitNamed(name);
+  throw py::value_error("unit " + name + ": must be a unit of length, such as nm, um, mm, cm or m");
+}
+
 Server ConnectTo(const client::Endpoint& endpoint) {
   return std::make_shared<client::SkeletonizeClient>(Value(client::MakeGrpcStub(endpoint)));
 }
@@ -298,6 +305,7 @@ void AddFunctions(py::module_& module) {
   module.def("skeletonize_mask", &Mask);
   module.def("skeletonize_mesh", &Mesh);
   module.def("skeletonize_labels", &Labels);
+  module.def("checked_unit", &CheckedUnit);
   module.def("gray_threshold", &GrayThreshold);
   module.def("read_image", &ReadImage);
   module.def("read_mesh", &ReadMesh);
