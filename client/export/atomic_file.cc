@@ -16,7 +16,7 @@ absl::Status WriteFileUntil(const std::stop_token& stop, const std::string& path
                             std::span<const std::byte> bytes) {
   constexpr size_t kMostAtOnce = size_t{1} << 22;  // so that a stop takes effect
   BCCSKEL_ASSIGN_OR_RETURN(const std::unique_ptr<FileReplacement> file,
-                           FileReplacement::Begin(path));
+                           FileReplacement::Begin(path, stop));
   for (size_t at = 0; at < bytes.size() && !stop.stop_requested(); at += kMostAtOnce) {
     const size_t count = std::min(kMostAtOnce, bytes.size() - at);
     BCCSKEL_RETURN_IF_ERROR(file->WriteAt(at, bytes.subspan(at, count)));

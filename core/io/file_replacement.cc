@@ -7,10 +7,12 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <cstddef>
 #include <cstdio>
 #include <filesystem>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 #include "absl/strings/str_format.h"
@@ -21,6 +23,8 @@ namespace {
 absl::Status SystemStatus(int error) {
   return absl::Status(absl::ErrnoToStatusCode(error), std::generic_category().message(error));
 }
+
+absl::Status Stopped() { return absl::CancelledError("interrupted, so it was not written"); }
 
 absl::Status CreationStatus(int error, const std::string& path) {
   const std::string folder = path.substr(0, path.rfind('/') + 1);
@@ -42,16 +46,40 @@ bool IsSpecialFile(const std::string& path) {
   return ::stat(path.c_str(), &about) == 0 && !S_ISREG(about.st_mode) && !S_ISDIR(about.st_mode);
 }
 
+bool IsPipe(const std::string& path) {
+  struct stat about;
+  return ::stat(path.c_str(), &about) == 0 && S_ISFIFO(about.st_mode);
+}
+
+// Waits for the reader of a pipe as open() does, but only until a stop request.
+exec::Descriptor OpenSpecial(const std::string& path, const std::stop_token& stop) {
+  constexpr std::chrono::milliseconds kPause(10);
+  if (!IsPipe(path)) return exec::Descriptor(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
+  const auto open = [&] { return ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK); };
+  exec::Descriptor pipe(open());
+  while (!pipe.is_open() && errno == ENXIO && !stop.stop_requested()) {
+    std::this_thread::sleep_for(kPause);
+    pipe = exec::Descriptor(open());
+  }
+  if (pipe.is_open()) ::fcntl(pipe.get(), F_SETFL, 0);  // write() is to wait
+  return pipe;
+}
+
 bool IsNameTooLong(const std::string& path) {
   return ::access(path.c_str(), F_OK) != 0 && errno == ENAMETOOLONG;
 }
 
-// Follows links, so that a link stays and its target is replaced.
+// Follows links, so that a link stays and its target is replaced or made.
 std::string BehindLinks(const std::string& path) {
+  constexpr int kMostLinks = 40;  // as the system
+  std::filesystem::path place = path;
   std::error_code error;
-  if (!std::filesystem::is_symlink(path, error)) return path;
-  const std::filesystem::path behind = std::filesystem::canonical(path, error);
-  return error ? path : behind.string();
+  for (int n = 0; std::filesystem::is_symlink(place, error); ++n) {
+    if (n == kMostLinks) return path;
+    place = place.parent_path() / std::filesystem::read_symlink(place, error);
+    if (error) return path;
+  }
+  return place.string();
 }
 
 // Of UTF-8.
@@ -72,7 +100,8 @@ std::string DraftOf(const std::string& place) {
 FileReplacement::FileReplacement(std::string place, std::string draft, exec::Descriptor descriptor)
     : place_(std::move(place)), draft_(std::move(draft)), descriptor_(std::move(descriptor)) {}
 
-absl::StatusOr<std::unique_ptr<FileReplacement>> FileReplacement::Begin(const std::string& path) {
+absl::StatusOr<std::unique_ptr<FileReplacement>> FileReplacement::Begin(
+    const std::string& path, const std::stop_token& stop) {
   if (IsFolder(path)) return SystemStatus(EISDIR);
   if (IsNameTooLong(path)) return SystemStatus(ENAMETOOLONG);  // the draft's is shorter
   const bool special = IsSpecialFile(path);
@@ -83,13 +112,14 @@ absl::StatusOr<std::unique_ptr<FileReplacement>> FileReplacement::Begin(const st
     // mkstemp() would ignore the umask.
     return ::open(draft.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   };
-  exec::Descriptor file(special ? ::open(path.c_str(), O_WRONLY | O_CLOEXEC) : create());
+  exec::Descriptor file = special ? OpenSpecial(path, stop) : exec::Descriptor(create());
   // Processes that were killed leave drafts, in containers often of the same number.
   constexpr int kMostDrafts = 1000;
   for (int n = 1; !file.is_open() && errno == EEXIST && n < kMostDrafts; ++n) {
     file = exec::Descriptor(create());
   }
-  if (!file.is_open()) return CreationStatus(errno, path);
+  if (!file.is_open() && special && stop.stop_requested()) return Stopped();
+  if (!file.is_open()) return CreationStatus(errno, place);
   return std::unique_ptr<FileReplacement>(new FileReplacement(place, draft, std::move(file)));
 }
 
@@ -119,12 +149,11 @@ absl::Status FileReplacement::WriteAt(uint64_t offset, std::span<const std::byte
 }
 
 absl::Status FileReplacement::Commit(const std::stop_token& stop) {
-  const auto stopped = [] { return absl::CancelledError("interrupted, so it was not written"); };
-  if (stop.stop_requested()) return stopped();
+  if (stop.stop_requested()) return Stopped();
   const bool synced = draft_.empty() || ::fsync(descriptor_.get()) == 0;
   // Some file systems report a full disk only here.
   if (!synced || !descriptor_.Close()) return SystemStatus(errno);
-  if (stop.stop_requested()) return stopped();
+  if (stop.stop_requested()) return Stopped();
   if (draft_.empty()) return absl::OkStatus();
   if (std::rename(draft_.c_str(), place_.c_str()) != 0) return SystemStatus(errno);
   draft_.clear();

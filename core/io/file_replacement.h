@@ -16,12 +16,14 @@
 namespace bccskel {
 
 // The next content of a file, written beside it: readers of the path see the old bytes or all of
-// the new ones. A link stays, and what it points to is replaced. What is not a regular file, such
-// as /dev/null or a pipe, is written to directly; pipes take bytes in order only.
+// the new ones. A link stays, and what it points to is replaced or made. What is not a regular
+// file, such as /dev/null or a pipe, is written to directly; pipes take bytes in order only.
 // Errors: what the system says, in words that do not name the path.
 class FileReplacement final : public ByteSink {
  public:
-  static absl::StatusOr<std::unique_ptr<FileReplacement>> Begin(const std::string& path);
+  // Waits for the reader of a pipe. Errors: also CANCELLED after a stop request.
+  static absl::StatusOr<std::unique_ptr<FileReplacement>> Begin(const std::string& path,
+                                                                const std::stop_token& stop = {});
   // Whether Begin() can succeed; leaves no trace.
   static absl::Status Check(const std::string& path);
 

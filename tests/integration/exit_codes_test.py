@@ -125,6 +125,21 @@ class ExitCodesTest(harness.TestCase):
             self.fail_with(8, "cannot write " + self.path("no/"), *words)
         self.assertEqual(os.listdir(self.folder), [])
 
+    def test_130_and_143_while_a_pipe_has_no_reader(self):
+        volume, pipe = self.generate("tree"), self.path("pipe.swc")
+        os.mkfifo(pipe)
+        for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
+            client = self.start("skeletonize", volume, "--local", "--progress", "always", "-o", pipe)
+            while "writing pipe.swc" not in client.stderr.readline():
+                self.assertIsNone(client.poll())
+            client.send_signal(number)
+            try:
+                _, error = client.communicate(timeout=60)
+            finally:
+                client.kill()
+            self.assertEqual(client.returncode, code, error)
+            self.assertIn("pipe.swc: interrupted, so it was not written", error)
+
     def test_130_while_files_are_written(self):
         volume = self.generate("tree", 2_000_000)
         self.interrupted_writing("pipe.json", "skeletonize", volume, "--local", "-o",

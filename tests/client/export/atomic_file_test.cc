@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <csignal>
 #include <filesystem>
+#include <string>
 
 #include "tests/support/temporary_folder.h"
 
@@ -115,6 +117,28 @@ TEST_F(AtomicFileTest, TellsBeforehandWhetherAFileCanBeWritten) {
   ASSERT_TRUE(WriteFileAtomically(folder_ / "file", "bytes").ok());
   EXPECT_TRUE(CheckWritable(folder_ / "file").ok());
   EXPECT_FALSE(CheckWritable(folder_ / "file/below").ok());
+}
+
+TEST_F(AtomicFileTest, ALinkToNothingStaysAndItsTargetIsMade) {
+  fs::create_directory(folder_ / "data");
+  fs::create_symlink("data/new", folder_ / "link");
+  fs::create_symlink(folder_ / "link", folder_ / "link to link");
+  ASSERT_TRUE(WriteFileAtomically(folder_ / "link to link", "bytes").ok());
+  EXPECT_TRUE(fs::is_symlink(folder_ / "link"));
+  EXPECT_EQ(test::BytesOfFile(folder_ / "data/new"), "bytes");
+  fs::create_symlink(folder_ / "none/new", folder_ / "astray");
+  const absl::Status astray = WriteFileAtomically(folder_ / "astray", "bytes");
+  const std::string none = folder_ / "none";
+  EXPECT_NE(astray.message().find(none + " does not exist"), astray.message().npos) << astray;
+}
+
+TEST_F(AtomicFileTest, AStopEndsTheWaitForTheReaderOfAPipe) {
+  const std::string pipe = folder_ / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  std::stop_source stop;
+  stop.request_stop();
+  const absl::Status status = WriteFileAtomically(pipe, "bytes", stop.get_token());
+  EXPECT_TRUE(absl::IsCancelled(status)) << status;
 }
 
 TEST_F(AtomicFileTest, AFolderIsNotReplaced) {
