@@ -113,6 +113,13 @@ absl::StatusOr<Object> Load(const SkeletonizeArguments& arguments, const exec::C
   return kind == InputKind::kMesh ? FromMesh(arguments, context) : FromImage(arguments, context);
 }
 
+absl::StatusOr<Object> LoadOrMake(const SkeletonizeArguments& arguments, const SharedWork& work,
+                                  const exec::Context& context) {
+  if (!work.make) return Load(arguments, context);
+  BCCSKEL_ASSIGN_OR_RETURN(Volume volume, work.make(context));
+  return Object{std::move(volume)};
+}
+
 bool Wants(const SkeletonizeArguments& arguments, exporting::SkeletonFormat wanted) {
   return std::ranges::any_of(arguments.outputs, [&](const std::string& path) {
     const auto format = exporting::SkeletonFormatOf(path);
@@ -224,30 +231,6 @@ exporting::World WorldOfInput(const Object& object, const std::string& input) {
                            : exporting::World();
 }
 
-absl::StatusOr<std::vector<WrittenFile>> WriteOutputs(const SkeletonizeArguments& arguments,
-                                                      const Object& object,
-                                                      const Computed& computed,
-                                                      const exec::Context& context,
-                                                      const ProgressBar& bar) {
-  const exporting::Subject subject = {computed.result,
-                                      object.volume,
-                                      std::string(FileName(arguments.input)),
-                                      context,
-                                      computed.shells.has_value() ? &*computed.shells : nullptr,
-                                      arguments.root,
-                                      WorldOfInput(object, arguments.input),
-                                      arguments.swc,
-                                      view::DrawSubject};
-  std::vector<WrittenFile> files;
-  for (const std::string& path : arguments.outputs) {
-    BCCSKEL_RETURN_IF_ERROR(context.StopStatus());
-    bar.Begin("writing", path);
-    BCCSKEL_ASSIGN_OR_RETURN(std::string note, exporting::WriteSkeletonFile(path, subject));
-    files.push_back({path, std::move(note)});
-  }
-  return files;
-}
-
 // Writes the images of the skeleton and adds them to the files.
 absl::Status WriteImages(const SkeletonizeArguments& arguments, const Object& object,
                          const SkeletonGraph& graph, const exec::Context& context,
@@ -277,6 +260,46 @@ absl::Status WriteImages(const SkeletonizeArguments& arguments, const Object& ob
   if (images.curves.empty()) return absl::OkStatus();
   BCCSKEL_ASSIGN_OR_RETURN(const SparseImage curves, DrawSkeleton(grid, voxels, graph));
   return write(images.curves, curves, "the voxels of each branch: its index in the graph + 1");
+}
+
+struct Written {
+  std::vector<WrittenFile> files;
+  ExitCode code = ExitCode::kOk;
+
+  // Goes on after a file that cannot be written: a full disk must not cost the work for the others.
+  void Add(const std::string& path, absl::StatusOr<std::string> note) {
+    if (note.ok()) files.push_back({path, *std::move(note)});
+    if (!note.ok()) code = FailWith(ExitCode::kOutput, note.status());
+  }
+};
+
+absl::StatusOr<Written> WriteOutputs(const SkeletonizeArguments& arguments, const Object& object,
+                                     const Computed& computed, const exec::Context& context,
+                                     const ProgressBar& bar) {
+  const exporting::Subject subject = {computed.result,
+                                      object.volume,
+                                      std::string(FileName(arguments.input)),
+                                      context,
+                                      computed.shells.has_value() ? &*computed.shells : nullptr,
+                                      arguments.root,
+                                      WorldOfInput(object, arguments.input),
+                                      arguments.swc,
+                                      view::DrawSubject};
+  Written written;
+  for (const std::string& path : arguments.outputs) {
+    BCCSKEL_RETURN_IF_ERROR(context.StopStatus());
+    bar.Begin("writing", path);
+    absl::StatusOr<std::string> note = exporting::WriteSkeletonFile(path, subject);
+    const bool of_all = absl::IsInvalidArgument(note.status()) || absl::IsCancelled(note.status());
+    if (of_all) return note.status();
+    written.Add(path, std::move(note));
+  }
+  if (arguments.images.wanted()) bar.Begin("writing images");
+  const absl::Status drawn =
+      WriteImages(arguments, object, computed.result.graph, context, written.files);
+  if (absl::IsCancelled(drawn)) return drawn;
+  if (!drawn.ok()) written.code = FailWith(ExitCode::kOutput, drawn);
+  return written;
 }
 
 // The only INVALID_ARGUMENT of writing is an object with coordinates that no format can hold.
@@ -339,17 +362,6 @@ absl::StatusOr<Volume> LoadPart(const SkeletonizeArguments& arguments,
   return std::move(object.volume);
 }
 
-namespace {
-
-absl::StatusOr<Object> LoadOrMake(const SkeletonizeArguments& arguments, const SharedWork& work,
-                                  const exec::Context& context) {
-  if (!work.make) return Load(arguments, context);
-  BCCSKEL_ASSIGN_OR_RETURN(Volume volume, work.make(context));
-  return Object{std::move(volume)};
-}
-
-}  // namespace
-
 ExitCode RunShared(const SharedWork& work, const SkeletonizeArguments& given,
                    const std::stop_token& stop) {
   const Clock::time_point start = Clock::now();
@@ -370,15 +382,14 @@ ExitCode RunShared(const SharedWork& work, const SkeletonizeArguments& given,
   const absl::Status kept = CertifyImage(arguments, *object, result->certificate);
   if (!kept.ok()) return Fail(kept);
   for (const std::string& note : NotesOn(*result)) Warn(arguments.input + ": " + note);
-  absl::StatusOr<std::vector<WrittenFile>> files =
+  absl::StatusOr<Written> written =
       WriteOutputs(arguments, *object, *computed, team.context(), bar);
-  if (!files.ok()) return FailWriting(arguments, files.status());
-  if (arguments.images.wanted()) bar.Begin("writing images");
-  const absl::Status shown = WriteImages(arguments, *object, result->graph, team.context(), *files);
-  if (!shown.ok()) return FailWith(ExitCode::kOutput, shown);
-  const ExitCode printed = PrintSummary({arguments, object->volume, *result, object->mesh,
-                                         object->image, *std::move(files), SecondsSince(start)});
-  return result->certificate.TopologyKept() ? printed : ExitCode::kInternal;
+  if (!written.ok()) return FailWriting(arguments, written.status());
+  const ExitCode printed =
+      PrintSummary({arguments, object->volume, *result, object->mesh, object->image,
+                    std::move(written->files), SecondsSince(start)});
+  if (!result->certificate.TopologyKept()) return ExitCode::kInternal;
+  return written->code == ExitCode::kOk ? printed : written->code;
 }
 
 ExitCode Run(const SkeletonizeArguments& arguments, const std::stop_token& stop) {

@@ -125,6 +125,16 @@ class ExitCodesTest(harness.TestCase):
             self.fail_with(8, "cannot write " + self.path("no/"), *words)
         self.assertEqual(os.listdir(self.folder), [])
 
+    def test_8_for_one_file_leaves_the_others(self):
+        full = self.path("full.svg")
+        os.symlink("/dev/full", full)
+        done = self.fail_with(8, f"cannot write {full}: No space left", "skeletonize",
+                              self.generate("tree"), "--local", "--json", "-o", self.path("a.swc"),
+                              "-o", full, "-o", self.path("b.csv"))
+        self.assertEqual([os.path.basename(file["path"]) for file in json.loads(done.stdout)["outputs"]],
+                         ["a.swc", "b.csv"])
+        self.assertTrue(pathlib.Path(self.path("b.csv")).read_text().startswith("skeleton_id,"))
+
     def test_130_and_143_while_a_pipe_has_no_reader(self):
         volume, pipe = self.generate("tree"), self.path("pipe.swc")
         os.mkfifo(pipe)
