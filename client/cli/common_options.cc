@@ -187,6 +187,8 @@ void AddResultAndObject(CLI::App& command, ResultArguments& arguments, ObjectNee
   const bool required = need == ObjectNeed::kRequired;
   object->required(required)->option_text(required ? "FILE (required)" : "FILE");
   AddGrid(command, arguments.grid);
+  command.get_option("--points")
+      ->description("Number of lattice points inside the solid (default: as for the result)");
   AddImage(command, arguments.image);
   AddCommonHere(command, arguments.common);
 }

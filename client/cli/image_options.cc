@@ -23,8 +23,7 @@ namespace bccskel::cli {
 void AddGrid(CLI::App& command, VoxelizeOptions& grid) {
   CLI::Option* points = AddCount<uint64_t>(
       command, "--points", [&grid](uint64_t number) { grid.points = number; },
-      "Number of lattice points inside the solid (default 850000, or as the result)", 1,
-      grid.max_points);
+      "Number of lattice points inside the solid (default 850000)", 1, grid.max_points);
   command.add_option("--spacing", grid.spacing, "Edge of the cubic cell, in the mesh's unit")
       ->check(Positive())
       ->excludes(points)

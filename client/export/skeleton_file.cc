@@ -164,8 +164,11 @@ absl::StatusOr<SkeletonFormat> SkeletonFormatOf(const std::string& path) {
   for (const Ending& ending : kEndings) {
     if (lower.ends_with(ending.text)) return ending.format;
   }
-  return absl::InvalidArgumentError(path + ": no output format has this ending; there are " +
-                                    SkeletonFormatEndings());
+  const bool has_ending = path.find('.', path.rfind('/') + 1) != path.npos;
+  const char* problem = has_ending ? "no output format has this ending; there are "
+                                   : "an output needs an ending, which selects its format: ";
+  return absl::InvalidArgumentError(
+      absl::StrCat(path.empty() ? "an empty name" : path, ": ", problem, SkeletonFormatEndings()));
 }
 
 bool ShowsObject(SkeletonFormat format) {

@@ -209,6 +209,10 @@ class CommandsTest(harness.TestCase):
         summary = json.loads(self.succeed("voxelize", self.tetrahedron("a.off"), "--json", "-o",
                                           self.path("a.exr")))
         self.assertAlmostEqual(summary["volume"]["points"], 850_000, delta=10_000)
+        for command, default in (("voxelize", "(default 850000)\n"),
+                                 ("skeletonize", "(default 850000)\n"),
+                                 ("view", "(default: as for the result)\n")):
+            self.assertIn(default, self.succeed(command, "--help"))
 
     def test_a_terminal_gets_a_bar_that_ends_in_a_clean_line(self):
         volume = self.generate("tree")

@@ -28,6 +28,9 @@ class ExitCodesTest(harness.TestCase):
 
     def test_2_for_a_wrong_command_line(self):
         self.fail_with(2, "--output is required", "skeletonize", "a.off")
+        for name, shown in (("out", "out"), ("", "an empty name"), ("b.d/out", "b.d/out")):
+            self.fail_with(2, f"{shown}: an output needs an ending, which selects its format: .swc, ",
+                           "skeletonize", "a.off", "-o", name)
 
     def test_3_for_an_input_that_cannot_be_read_or_is_something_else(self):
         self.fail_with(3, "No such file", *self.skeletonize(self.path("none.off"), "--local"))
