@@ -4,6 +4,7 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
@@ -11,12 +12,14 @@
 namespace bccskel::exporting {
 namespace {
 
-std::string Shortest(double number) {
+template <typename Number>
+std::string Shortest(Number number) {
   std::array<char, 32> digits;
   return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr};
 }
 
-std::string Written(double number) {
+template <typename Number>
+std::string Written(Number number) {
   Text text;
   text.Add(number);
   return std::move(text).Take();
@@ -25,6 +28,18 @@ std::string Written(double number) {
 TEST(TextTest, WholeNumbersAndHalvesAreWrittenInTheShortestForm) {
   for (int halves = -50'000; halves <= 50'000; ++halves) {
     EXPECT_EQ(Written(halves / 2.0), Shortest(halves / 2.0));
+  }
+}
+
+TEST(TextTest, NumbersWithFewBinaryPlacesAreWrittenInTheShortestForm) {
+  for (int places = 1; places <= 14; ++places) {
+    for (int parts = 1; parts < (20'000 << places); parts += 1 + parts / 40) {
+      const double number = std::ldexp(parts, -places);
+      EXPECT_EQ(Written(number), Shortest(number));
+      EXPECT_EQ(Written(-number), Shortest(-number));
+      const auto narrow = static_cast<float>(number);
+      EXPECT_EQ(Written(narrow), Shortest(narrow));
+    }
   }
 }
 
