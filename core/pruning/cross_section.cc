@@ -16,6 +16,8 @@ constexpr double kWallMargin = 3;      // plus units: limbs as thick as surface 
 constexpr double kMostThick = 3;   // half-thickness of a wall in radii: beyond, another wall begins
 constexpr double kLeastOn = 0.25;  // a line continues in a wall by at least this many radii
 
+constexpr double kFarthestLook = 1000;  // along a line: PointNear() needs places near the object
+
 // Tangents of smaller turns to either side of the widest of these.
 constexpr double kFirstTurn = 0.2, kLeastTurn = 0.01;
 
@@ -50,10 +52,12 @@ CrossSection CrossSections::Across(const Coordinates& middle, const Coordinates&
 double CrossSections::NarrowerSide(const Coordinates& middle, const Coordinates& way, double radius,
                                    double reach) {
   const auto [u, v] = ::bccskel::Across(way);
-  const double start = std::floor(radius);
+  const double start = FloorOf(radius);
   double longest = 0;
   for (const auto& turn : kTurns) {
     const Coordinates side = Turned(turn, u, v);
+    const auto [may_there, may_back] = MayReach(longest + 1, middle, side, start);
+    if (!may_there || !may_back) continue;
     const double there = WayOut(middle, side, start, reach);
     if (there <= longest) continue;
     longest = std::max(longest, WayOut(middle, Times(-1, side), start, there));
@@ -96,9 +100,12 @@ void CrossSections::TurnFinely(double reach, CrossSection& section) {
 }
 
 // Uses the mean of the line's two sides, since at a limb's end there is only one. Returns whether
-// this line is the widest so far.
+// this line is the widest so far. Most are not, which shows where the longer side would have to
+// reach: farther than the mean.
 bool CrossSections::Widen(const Coordinates& side, double reach, CrossSection& section) {
-  const double start = std::floor(section.radius);
+  const double start = FloorOf(section.radius), longer = FloorOf(section.half_width) + 1;
+  const auto [may_there, may_back] = MayReach(longer, section.middle, side, start);
+  if (!may_there && !may_back) return false;
   const double there = WayOut(section.middle, side, start, reach);
   const double back = WayOut(section.middle, Times(-1, side), start, reach);
   const double half_width = (there + back) / 2;
@@ -167,6 +174,14 @@ bool CrossSections::GoOnInWall(Front& front, double out, double radius) {
   const Coordinates normal = Unit(Sum(front.normal, -Dot(front.normal, way), way));
   front = {middle, way, normal, front.length + LengthOf(step)};
   return true;
+}
+
+std::array<bool, 2> CrossSections::MayReach(double length, const Coordinates& from,
+                                            const Coordinates& way, double start) {
+  if (length <= start || length > kFarthestLook) return {true, true};
+  const PointsOnLine<4> points = FindPointsToBothSides(from, way, length, scale_);
+  return {bricks_.Contains(points[0]) || bricks_.Contains(points[1]),
+          bricks_.Contains(points[2]) || bricks_.Contains(points[3])};
 }
 
 double CrossSections::WayOut(const Coordinates& from, const Coordinates& way, double start,

@@ -110,6 +110,10 @@ class CrossSections {
   };
 
   void TurnFinely(double reach, CrossSection& section);
+  // Whether lines there and back may be as long as this whole number of units: not if two points in
+  // a row are missing there. Needs: as WayOut().
+  std::array<bool, 2> MayReach(double length, const Coordinates& from, const Coordinates& way,
+                               double start);
   bool Widen(const Coordinates& side, double reach, CrossSection& section);
   void FollowWall(double reach, CrossSection& section);
   double FindInscribed(const CrossSection& section);
