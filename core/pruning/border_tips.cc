@@ -317,11 +317,13 @@ void BorderTips::AddBranches(ExactRadius& radius, ThinSet& set, PointsByAxis& ad
   const auto may_add = [&](LatticePoint p) { return bricks_.Contains(p); };
   const std::vector<LatticePoint> ends = set.Ends();
   const std::vector<Crossing> crossings = Crossings(set);
+  std::vector<LatticePoint> points;  // of the set
+  set.ForEachPoint([&](LatticePoint p) { points.push_back(p); });
   std::vector<std::optional<NewBranch>> branches(crossings.size());
   const int workers = context.WorkersFor(crossings.size(), kWork);
   (void)context.ForEach(workers, crossings.size(), kAtOnce, [&](int) {
     return [&, own = *this, arms = TrunkArms()](size_t n) mutable {
-      branches[n] = own.BranchFrom(crossings[n], ends, set, arms);
+      branches[n] = own.BranchFrom(crossings[n], ends, points, set, arms);
     };
   });
   std::vector<LatticePoint> new_ends;
@@ -351,6 +353,7 @@ bool BorderTips::GoesOnAsThick(const Crossing& crossing, const ThinSet& set,
 
 std::optional<BorderTips::NewBranch> BorderTips::BranchFrom(const Crossing& crossing,
                                                             std::span<const LatticePoint> ends,
+                                                            std::span<const LatticePoint> points,
                                                             const ThinSet& set, TrunkArms& arms) {
   const auto& [face, p, touching] = crossing;
   std::vector<LatticePoint> trunk = CurveFrom(touching, p, set, arms);
@@ -369,12 +372,12 @@ std::optional<BorderTips::NewBranch> BorderTips::BranchFrom(const Crossing& cros
   };
   LatticePoint nearest = p;
   double least = square_to(p);
-  set.ForEachPoint([&](LatticePoint other) {
+  for (LatticePoint other : points) {
     const double square = square_to(other);
-    if (square > least || (square == least && nearest < other)) return;
+    if (square > least || (square == least && nearest < other)) continue;
     nearest = other;
     least = square;
-  });
+  }
   if (std::sqrt(least) < kLeastBranch * wide) return std::nullopt;
   limb->start = PlaceOf(nearest, scale_);
   return NewBranch{nearest, StraightTo(*middle, face, *limb), cut};

@@ -129,9 +129,10 @@ class BorderTips {
   // Whether the curve behind the crossing leaves the face again in a limb about as thick.
   bool GoesOnAsThick(const Crossing& crossing, const ThinSet& set, TrunkArms& arms) const;
   // The branch of the limb that leads to the crossing. None if one of the ends lies in its cut, or
-  // if the curve comes near its middle.
+  // if the curve comes near its middle. `points`: all of the set.
   std::optional<NewBranch> BranchFrom(const Crossing& crossing, std::span<const LatticePoint> ends,
-                                      const ThinSet& set, TrunkArms& arms);
+                                      std::span<const LatticePoint> points, const ThinSet& set,
+                                      TrunkArms& arms);
   static Way StraightTo(const Coordinates& middle, const Face& face, const Limb& limb);
 
   const AxisScale scale_;
