@@ -151,7 +151,7 @@ class GrpcStub : public Stub {
       if (options.on_lost) options.on_lost(accepted.job);
       const auto left =
           std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now());
-      return ResumeCall(client, accepted, volume, options, left);
+      return Resume(client, accepted, volume, options, left);
     }
     if (absl::IsCancelled(error) || absl::IsDeadlineExceeded(error)) {
       constexpr std::chrono::seconds kFarewell(5);
@@ -159,6 +159,18 @@ class GrpcStub : public Stub {
       client.CancelJob(accepted.job, {.timeout = kFarewell, .stop = {}}).status().IgnoreError();
     }
     return error;
+  }
+
+  // Sends the rest of the volume, waits for the job and reads its result: computes nothing twice.
+  static absl::StatusOr<SkeletonizeResult> Resume(DurableClient& client,
+                                                  const AcceptedCall& accepted,
+                                                  const EncodedVolume& volume,
+                                                  const CallOptions& options,
+                                                  std::chrono::milliseconds timeout) {
+    const DurableClient::Calls calls = {.timeout = timeout, .stop = options.stop};
+    BCCSKEL_RETURN_IF_ERROR(client.FinishUpload(accepted.upload, volume, calls).status());
+    BCCSKEL_RETURN_IF_ERROR(client.Await(accepted.job, options.on_shell, calls));
+    return client.Fetch(accepted.job, calls);
   }
 
   std::shared_ptr<grpc::Channel> channel_;

@@ -11,10 +11,15 @@
 
 #include "absl/status/status.h"
 #include "client/grpc_status.h"
-#include "client/resume_call.h"
 #include "core/digest/sha256.h"
 
 namespace bccskel::client {
+
+// The names that the server states when it accepts a durable Skeletonize call.
+struct AcceptedCall {
+  std::string upload;
+  std::string job;
+};
 
 // One call that uploads a volume, from its first to its last message, on the calling thread.
 template <typename Request, typename Response>
