@@ -1,8 +1,6 @@
 #ifndef BCCSKEL_TESTS_QUALITY_HAIR_H_
 #define BCCSKEL_TESTS_QUALITY_HAIR_H_
 
-#include <cstdint>
-
 #include "core/skeleton/skeleton_graph.h"
 #include "tests/quality/voxel_mask.h"
 

@@ -2,7 +2,6 @@
 #define BCCSKEL_TESTS_QUALITY_METHODS_H_
 
 #include <array>
-#include <string>
 
 #include "absl/status/statusor.h"
 #include "core/pipeline/skeletonize.h"

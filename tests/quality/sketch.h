@@ -1,7 +1,6 @@
 #ifndef BCCSKEL_TESTS_QUALITY_SKETCH_H_
 #define BCCSKEL_TESTS_QUALITY_SKETCH_H_
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>

@@ -4,9 +4,7 @@
 #include <cmath>
 #include <functional>
 
-#include "tests/quality/wild_growth.h"
-#include "tests/quality/wild_parts.h"
-#include "tests/quality/wild_sheets.h"
+#include "tests/quality/wild_drawings.h"
 
 namespace bccskel::quality {
 namespace {

@@ -1,8 +1,7 @@
-#include "tests/quality/wild_growth.h"
-
 #include <algorithm>
-#include <cmath>
 #include <numeric>
+
+#include "tests/quality/wild_drawings.h"
 
 namespace bccskel::quality {
 namespace {

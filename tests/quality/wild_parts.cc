@@ -1,6 +1,6 @@
-#include "tests/quality/wild_parts.h"
-
 #include <algorithm>
+
+#include "tests/quality/wild_drawings.h"
 
 namespace bccskel::quality {
 namespace {

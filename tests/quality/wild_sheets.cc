@@ -1,8 +1,8 @@
-#include "tests/quality/wild_sheets.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "tests/quality/wild_drawings.h"
 
 namespace bccskel::quality {
 namespace {
