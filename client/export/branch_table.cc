@@ -1,10 +1,9 @@
-#include "client/export/branch_table.h"
-
 #include <cmath>
 #include <string_view>
 #include <utility>
 
 #include "absl/strings/str_replace.h"
+#include "client/export/graph_formats.h"
 #include "client/export/picture/escape.h"
 #include "client/export/text.h"
 #include "core/skeleton/skeleton_figures.h"

@@ -1,5 +1,3 @@
-#include "client/export/glb.h"
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -12,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "client/export/graph_formats.h"
 #include "client/export/picture/escape.h"
 #include "client/export/sampled_curve.h"
 #include "client/export/text.h"

@@ -1,5 +1,3 @@
-#include "client/export/graphml.h"
-
 #include <cmath>
 #include <span>
 #include <string>
@@ -7,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "client/export/graph_formats.h"
 #include "client/export/picture/escape.h"
 #include "client/export/shared_text.h"
 #include "client/export/text.h"

@@ -1,10 +1,9 @@
-#include "client/export/markups.h"
-
 #include <algorithm>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "client/export/graph_formats.h"
 #include "client/export/picture/escape.h"
 #include "client/export/sampled_curve.h"
 #include "client/export/shared_text.h"

@@ -1,7 +1,6 @@
-#include "client/export/obj.h"
-
 #include <utility>
 
+#include "client/export/graph_formats.h"
 #include "client/export/polylines.h"
 #include "client/export/text.h"
 

@@ -1,5 +1,3 @@
-#include "client/export/precomputed.h"
-
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -21,6 +19,7 @@
 
 #include "absl/strings/str_replace.h"
 #include "client/export/atomic_file.h"
+#include "client/export/graph_formats.h"
 #include "core/exec/status_macros.h"
 #include "core/lattice/length_unit.h"
 

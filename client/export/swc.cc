@@ -1,11 +1,10 @@
-#include "client/export/swc.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string_view>
 #include <utility>
 
+#include "client/export/graph_formats.h"
 #include "client/export/point_forest.h"
 
 namespace bccskel::exporting {

@@ -1,11 +1,10 @@
-#include "client/export/vtp.h"
-
 #include <algorithm>
 #include <cmath>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "client/export/graph_formats.h"
 #include "client/export/picture/escape.h"
 #include "client/export/polylines.h"
 #include "client/export/text.h"

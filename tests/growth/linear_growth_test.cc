@@ -11,14 +11,8 @@
 #include <span>
 #include <vector>
 
-#include "client/export/branch_table.h"
-#include "client/export/glb.h"
-#include "client/export/graphml.h"
+#include "client/export/graph_formats.h"
 #include "client/export/json.h"
-#include "client/export/markups.h"
-#include "client/export/obj.h"
-#include "client/export/swc.h"
-#include "client/export/vtp.h"
 #include "core/pipeline/skeletonize.h"
 #include "core/pruning/ball_index.h"
 #include "tests/support/cell_patterns.h"

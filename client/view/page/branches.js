@@ -27,7 +27,7 @@ function ownBranch(e, id) {
   return { source: e.source, target: e.target, length: e.length, min: least, max: most,
            mean: e.mean_radius ?? sum / e.radii.length, level: e.pruning_level, edges: [id] };
 }
-// The other figures of the branch table (client/export/branch_table.h).
+// The other figures of the branch table (client/export/graph_formats.h).
 function measureBranch(branch, number) {
   const { source, target, edges, shared } = branch;
   const [p, q] = [nodeAt[source].position, nodeAt[target].position];

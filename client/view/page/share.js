@@ -8,7 +8,7 @@ function save(name, blob) {
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 }
 
-// The branch table of the command line (client/export/branch_table.h), for the listed branches in
+// The branch table of the command line (client/export/graph_formats.h), for the listed branches in
 // their order.
 function branchCsv() {
   const ordered = result.order !== undefined;

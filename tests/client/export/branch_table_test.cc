@@ -1,11 +1,10 @@
-#include "client/export/branch_table.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <map>
 #include <sstream>
 
+#include "client/export/graph_formats.h"
 #include "core/skeleton/skeleton_figures.h"
 #include "tests/client/export/sample_skeletons.h"
 

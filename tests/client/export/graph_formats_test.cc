@@ -1,3 +1,5 @@
+#include "client/export/graph_formats.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -5,11 +7,8 @@
 #include <string>
 #include <string_view>
 
-#include "client/export/graphml.h"
 #include "client/export/json.h"
-#include "client/export/obj.h"
 #include "client/export/polylines.h"
-#include "client/export/vtp.h"
 #include "core/skeleton/skeleton_figures.h"
 #include "tests/client/export/sample_skeletons.h"
 

@@ -6,9 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "client/export/glb.h"
+#include "client/export/graph_formats.h"
 #include "client/export/labeled_graph.h"
-#include "client/export/markups.h"
 #include "tests/client/export/sample_skeletons.h"
 
 // Formats that programs of pictures open: GLB and Slicer's markups.

@@ -8,14 +8,8 @@
 #include <iterator>
 #include <stop_token>
 
-#include "client/export/branch_table.h"
-#include "client/export/glb.h"
-#include "client/export/graphml.h"
+#include "client/export/graph_formats.h"
 #include "client/export/json.h"
-#include "client/export/markups.h"
-#include "client/export/obj.h"
-#include "client/export/swc.h"
-#include "client/export/vtp.h"
 #include "core/io/volume_file.h"
 #include "tests/client/export/sample_skeletons.h"
 #include "tests/support/temporary_folder.h"

@@ -1,5 +1,3 @@
-#include "client/export/swc.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -11,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "client/export/graph_formats.h"
 #include "client/export/point_forest.h"
 #include "tests/client/export/sample_skeletons.h"
 #include "tests/support/volume_where.h"
