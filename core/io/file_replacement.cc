@@ -51,7 +51,8 @@ bool IsPipe(const std::string& path) {
   return ::stat(path.c_str(), &about) == 0 && S_ISFIFO(about.st_mode);
 }
 
-// Waits for the reader of a pipe as open() does, but only until a stop request.
+// Waits for the reader of a pipe as open() does, but only until a stop request. Tries again and
+// again, since nothing reports that a reader has come.
 exec::Descriptor OpenSpecial(const std::string& path, const std::stop_token& stop) {
   constexpr std::chrono::milliseconds kPause(10);
   if (!IsPipe(path)) return exec::Descriptor(::open(path.c_str(), O_WRONLY | O_CLOEXEC));

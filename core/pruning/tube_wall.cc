@@ -13,6 +13,7 @@ namespace {
 // Where the wall must surround the hollow, in the branch's points from its end.
 constexpr std::array<double, 3> kPlaces = {0.125, 0.3, 0.5};
 constexpr double kWidestTube = 60;  // longest line across the hollow, in radii of the branch
+constexpr double kFarthest = 1000;  // longest line: PointNear() needs places near the object
 constexpr double kOffCenter = 4;    // longest way from its middle to the wall, in half such lines
 constexpr int kFinest = 4;          // how often the angle between two rays is halved
 constexpr size_t kLeastPoints = 8;  // shorter branches have no direction
@@ -72,7 +73,7 @@ class Hollow {
 
 bool SurroundsHollow(const Coordinates& place, const Coordinates& way, double radius,
                      CrossSections& sections) {
-  const double widest = std::min(kWidestTube * radius, kLongestCompared);
+  const double widest = std::min(kWidestTube * radius, kFarthest);
   const CrossSection section = sections.Across(place, way, radius, 4 * radius + 4);
   if (section.half_width < kWallWidth * radius + kWallWidthUnits) return false;
   const Coordinates normal = Cross(section.way, section.side);
@@ -83,7 +84,7 @@ bool SurroundsHollow(const Coordinates& place, const Coordinates& way, double ra
     const double across = sections.WayToObject(face, to, widest);
     if (across >= widest) return false;
     Hollow hollow(sections, Sum(face, across / 2, to), normal, section.side,
-                  kOffCenter * (across / 2 + 1));
+                  std::min(kOffCenter * (across / 2 + 1), kFarthest));
     return hollow.IsClosed();
   });
 }
